@@ -1,0 +1,29 @@
+# SPDX-FileCopyrightText: Sand Reckoner contributors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# One interface target, reckon_flags, carries what every translation unit shares.
+
+add_library(reckon_flags INTERFACE)
+target_compile_features(reckon_flags INTERFACE cxx_std_20)
+target_include_directories(reckon_flags INTERFACE
+  "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>"
+  "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>"
+  "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+
+# The determinism contract: a*b+c must round the same on every machine and in every
+# kernel variant, so the compiler may not fuse it. (-fno-math-errno only lets sqrt
+# become one instruction; it changes no result.)
+target_compile_options(reckon_flags INTERFACE -ffp-contract=off -fno-math-errno)
+
+target_compile_options(reckon_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wold-style-cast)
+if(RECKON_WARNINGS_AS_ERRORS)
+  target_compile_options(reckon_flags INTERFACE -Werror)
+endif()
+
+if(RECKON_SANITIZE)
+  target_compile_options(reckon_flags INTERFACE
+    -fsanitize=${RECKON_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(reckon_flags INTERFACE -fsanitize=${RECKON_SANITIZE})
+endif()

@@ -1,0 +1,31 @@
+# SPDX-FileCopyrightText: Sand Reckoner contributors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# reckon_module(<name> [SOURCES ...] [DEPENDS ...] [PRIVATE ...])
+#   One static library per folder of src/reckon, reachable as reckon::<name>.
+#   DEPENDS: modules and libraries that its headers need; PRIVATE: only its sources.
+#   A module without sources is a header-only interface target.
+function(reckon_module name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;PRIVATE" ${ARGN})
+  if(arg_SOURCES)
+    add_library(reckon_${name} STATIC ${arg_SOURCES})
+    target_link_libraries(reckon_${name} PUBLIC reckon_flags ${arg_DEPENDS} PRIVATE ${arg_PRIVATE})
+    set_target_properties(reckon_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  else()
+    add_library(reckon_${name} INTERFACE)
+    target_link_libraries(reckon_${name} INTERFACE reckon_flags ${arg_DEPENDS})
+  endif()
+  add_library(reckon::${name} ALIAS reckon_${name})
+endfunction()
+
+# reckon_test(<name> SOURCES ... DEPENDS ... [LABELS ...])
+#   One GoogleTest executable; every TEST in it becomes a ctest entry.
+function(reckon_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  include(GoogleTest)
+  add_executable(test_${name} ${arg_SOURCES})
+  target_link_libraries(test_${name} PRIVATE reckon_flags ${arg_DEPENDS} GTest::gtest_main)
+  target_compile_definitions(test_${name} PRIVATE RECKON_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
+    PROPERTIES LABELS "${arg_LABELS}")
+endfunction()

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <exception>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace reckon {
+
+/// Number of threads that the next parallel loop uses.
+[[nodiscard]] inline int thread_count() {
+#ifdef _OPENMP
+  return omp_get_max_threads();
+#else
+  return 1;
+#endif
+}
+
+/// This thread's number inside a parallel loop, from 0.
+[[nodiscard]] inline int thread_index() {
+#ifdef _OPENMP
+  return omp_get_thread_num();
+#else
+  return 0;
+#endif
+}
+
+inline void set_thread_count([[maybe_unused]] int count) {
+#ifdef _OPENMP
+  omp_set_num_threads(count);
+#endif
+}
+
+/// Calls body(k) for k in [0, count), on all threads, `chunk` indices at a time to whoever is free.
+/// The body may write only what belongs to its k (or to thread_index()). An exception of a body is
+/// carried out of the parallel region: the one of the lowest k, whoever met it first.
+template <class Body>
+void parallel_for(std::size_t count, std::size_t chunk, Body&& body) {
+  std::exception_ptr failure;
+  std::size_t failure_index = count;
+#ifdef _OPENMP
+#pragma omp parallel for schedule(dynamic, static_cast <int>(chunk))
+#endif
+  for (std::size_t k = 0; k < count; ++k) {
+    try {
+      body(k);
+    } catch (...) {
+#ifdef _OPENMP
+#pragma omp critical(reckon_parallel_for_failure)
+#endif
+      if (k < failure_index) {
+        failure_index = k;
+        failure = std::current_exception();
+      }
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace reckon

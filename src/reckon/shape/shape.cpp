@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/shape/shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reckon {
+
+double lipschitz_constant(const LevelSetView& grid) {
+  double steepest_squared = 0;
+  const auto nx = static_cast<std::size_t>(grid.dims[0]);
+  const auto nxy = nx * static_cast<std::size_t>(grid.dims[1]);
+  const auto edge = [&](std::size_t from, std::size_t to) {
+    return std::abs(double{grid.values[to]} - double{grid.values[from]});
+  };
+  for (std::int32_t k = 0; k + 1 < grid.dims[2]; ++k) {
+    for (std::int32_t j = 0; j + 1 < grid.dims[1]; ++j) {
+      for (std::int32_t i = 0; i + 1 < grid.dims[0]; ++i) {
+        const std::size_t b = static_cast<std::size_t>(i) + nx * static_cast<std::size_t>(j) +
+                              nxy * static_cast<std::size_t>(k);
+        const double along_x =
+            std::max({edge(b, b + 1), edge(b + nx, b + nx + 1), edge(b + nxy, b + nxy + 1),
+                      edge(b + nx + nxy, b + nx + nxy + 1)});
+        const double along_y =
+            std::max({edge(b, b + nx), edge(b + 1, b + 1 + nx), edge(b + nxy, b + nxy + nx),
+                      edge(b + 1 + nxy, b + 1 + nxy + nx)});
+        const double along_z =
+            std::max({edge(b, b + nxy), edge(b + 1, b + 1 + nxy), edge(b + nx, b + nx + nxy),
+                      edge(b + 1 + nx, b + 1 + nx + nxy)});
+        steepest_squared =
+            std::max(steepest_squared, along_x * along_x + along_y * along_y + along_z * along_z);
+      }
+    }
+  }
+  return std::sqrt(steepest_squared) / grid.spacing;
+}
+
+std::vector<NodeCluster> make_clusters(const SurfaceNodes& nodes, std::uint32_t nodes_per_cluster) {
+  std::vector<NodeCluster> clusters;
+  const auto total = static_cast<std::uint32_t>(nodes.size());
+  for (std::uint32_t first = 0; first < total; first += nodes_per_cluster) {
+    const std::uint32_t count = std::min(nodes_per_cluster, total - first);
+    Vec3 low = nodes.position(first);
+    Vec3 high = low;
+    for (std::uint32_t n = first; n < first + count; ++n) {
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], nodes.position(n)[axis]);
+        high[axis] = std::max(high[axis], nodes.position(n)[axis]);
+      }
+    }
+    const Vec3 center = 0.5 * (low + high);
+    double radius = 0;
+    for (std::uint32_t n = first; n < first + count; ++n) {
+      radius = std::max(radius, norm(nodes.position(n) - center));
+    }
+    clusters.push_back({center, radius * (1 + 1e-12), first, count});
+  }
+  return clusters;
+}
+
+ShapeView::ShapeView(const Shape& shape)
+    : level_set{shape.level_set},
+      node_x{shape.nodes.x},
+      node_y{shape.nodes.y},
+      node_z{shape.nodes.z},
+      node_area{shape.nodes.area},
+      clusters{shape.clusters},
+      mass{shape.mass},
+      bounding_radius{shape.bounding_radius},
+      lipschitz{shape.lipschitz} {}
+
+}  // namespace reckon
