@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "reckon/math/vec3.hpp"
+
+namespace reckon {
+
+/// Everything a scene says, as plain values in SI units, already resolved to absolute paths.
+/// `io/` fills it from TOML and checks ranges; the Python module fills the same structs.
+/// Field comments give unit, default and range: the reference page is generated from the table in
+/// io/scene_schema.cpp, which repeats none of the numbers below.
+
+/// What grains are made of.
+struct MaterialConfig {
+  double density{2650};  ///< [kg/m^3], > 0
+  double friction{0.5};  ///< Coulomb coefficient between grains, >= 0
+};
+
+enum class ContactLawKind { linear, area };
+/// Whose nodes are tested in whose level set.
+enum class MasterRule {
+  lower_id,  ///< the grain with the lower id is the master (paper, appendix A)
+  smaller,   ///< the grain with the smaller bounding radius; equal radii fall back to lower_id
+  both       ///< both ways, each with half weight
+};
+
+/// How touching nodes push. See algorithms in docs/theory.
+struct ContactConfig {
+  ContactLawKind law{ContactLawKind::area};
+  double normal_stiffness{0};  ///< linear: k_n [N/m] per node; area: k_n [N/m^3]; > 0, no default
+  double shear_stiffness{0};   ///< same unit; > 0; io defaults it to 0.9 k_n
+  std::optional<double> restitution;  ///< in (0, 1): adds a normal dashpot; absent: none
+  std::optional<std::uint32_t>
+      node_cap;  ///< linear: pairs with more touching nodes are scaled by cap/n
+  MasterRule master{MasterRule::lower_id};
+};
+
+/// Forces on every grain other than contacts.
+struct BodyForceConfig {
+  Vec3 gravity;                      ///< [m/s^2]
+  double damping{0};                 ///< global damping xi [1/s], >= 0
+  double random_acceleration{0};     ///< each component uniform in [-a, a] [m/s^2], >= 0
+  std::uint64_t random_interval{1};  ///< steps between new random accelerations; >= 1
+  std::string acceleration_file;     ///< one line "ax ay az" [m/s^2] per grain; empty: none
+};
+
+/// How a wall moves: position changes by velocity * t, plus amplitude * sin(2 pi f t), while
+/// start <= t < stop.
+struct WallMotion {
+  Vec3 velocity;               ///< [m/s]
+  Vec3 amplitude;              ///< [m]
+  double frequency{0};         ///< [Hz]
+  double start{0};             ///< [s]
+  std::optional<double> stop;  ///< [s]
+};
+
+/// A half space; grains are kept on the side that the normal points to.
+struct PlaneConfig {
+  Vec3 point;   ///< [m]
+  Vec3 normal;  ///< any length
+};
+/// Six planes that look inward, named NAME.x-, NAME.x+, NAME.y-, ... An open top leaves out z+.
+struct BoxConfig {
+  Vec3 low;   ///< [m]
+  Vec3 high;  ///< [m]
+  bool open_top{false};
+};
+/// An infinite cylinder that holds grains inside.
+struct CylinderConfig {
+  Vec3 point;        ///< on the axis [m]
+  Vec3 axis;         ///< any length
+  double radius{0};  ///< [m]
+};
+
+struct WallConfig {
+  std::string name;
+  std::variant<PlaneConfig, BoxConfig, CylinderConfig> geometry;
+  std::optional<double> friction;          ///< default: the material's
+  std::optional<double> normal_stiffness;  ///< default: the contact's
+  std::optional<double> shear_stiffness;   ///< default: the contact's
+  bool dashpot{true};  ///< whether the contact's restitution also damps this wall
+  /// Moments use the node shortened by its depth, r (1 + d/|r|), as the authors' public code does,
+  /// instead of the node itself.
+  bool shortened_lever{false};
+  std::optional<WallMotion> motion;
+};
+
+/// Grains drawn from a library and placed without overlap of bounding spheres, in random
+/// orientations, on a jittered grid that fills the region from below.
+struct FillPlacement {
+  std::uint32_t count{0};
+  std::variant<BoxConfig, CylinderConfig> region;  ///< cylinder: with low/high below
+  double region_low{0};                            ///< cylinder only: extent along its axis [m]
+  double region_high{0};                           ///< [m]
+  Vec3 velocity;                                   ///< initial velocity [m/s]
+};
+/// Explicit grains, one each.
+struct ExplicitGrain {
+  std::string shape;                            ///< name in the library; empty: by order
+  Vec3 position;                                ///< [m]
+  std::vector<double> orientation{1, 0, 0, 0};  ///< quaternion w, x, y, z
+  Vec3 velocity;                                ///< [m/s]
+  Vec3 angular_velocity;                        ///< world frame [rad/s]
+  bool fixed{false};                            ///< never moves
+};
+/// Positions and rotations in the legacy text files; shapes are taken in turn.
+struct LegacyPlacement {
+  std::string positions_file;
+  std::string rotations_file;
+};
+
+struct GrainsConfig {
+  std::string library;  ///< shape library file
+  std::variant<FillPlacement, std::vector<ExplicitGrain>, LegacyPlacement> placement;
+};
+
+struct TimeConfig {
+  std::optional<double> step;  ///< [s]; absent: step_fraction * sqrt(m_min / k)
+  double step_fraction{0.1};   ///< in (0, 1]
+  std::uint64_t steps{0};      ///< how many to run; io computes it from a duration
+  std::optional<double> stop_at_unbalanced_ratio;  ///< ends the run early when at rest
+};
+
+struct NeighborConfig {
+  double skin{0.1};  ///< as a fraction of the smallest bounding radius, > 0
+};
+
+struct OutputConfig {
+  std::uint64_t history_interval{100};   ///< steps; 0: never
+  std::uint64_t fields_interval{0};      ///< steps between ParaView files; 0: only start and end
+  bool contacts{true};                   ///< write contacts beside grains
+  bool surfaces{false};                  ///< write true grain surfaces beside grains
+  std::uint64_t checkpoint_interval{0};  ///< steps; 0: only at the end
+};
+
+struct SceneConfig {
+  std::string title;
+  std::uint64_t seed{1};
+  MaterialConfig material;
+  ContactConfig contact;
+  BodyForceConfig body;
+  std::vector<WallConfig> walls;
+  std::vector<GrainsConfig> grains;
+  TimeConfig time;
+  NeighborConfig neighbor;
+  OutputConfig output;
+};
+
+}  // namespace reckon
