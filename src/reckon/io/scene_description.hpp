@@ -25,6 +25,7 @@
 ///   one_of         exactly one (or at most one) of several keys may be given
 ///   rule           a condition between keys, stated for the reference and tested on reading
 ///   given          whether the text being read holds a key
+///   visits         whether to visit a key that matters only under a condition
 namespace reckon {
 
 /// What a key is. `unit` is an SI unit that io/units understands.
@@ -137,10 +138,12 @@ void describe(Visitor& v, BodyForceConfig& body) {
             .meaning = "Each component of a random acceleration of every grain is uniform between "
                        "minus and plus this."},
            body.random_acceleration);
-  v.integer({.name = "random_interval",
-             .range = at_least(1),
-             .meaning = "Steps between new random accelerations."},
-            body.random_interval);
+  if (v.visits(body.random_acceleration > 0)) {
+    v.integer({.name = "random_interval",
+               .range = at_least(1),
+               .meaning = "Steps between new random accelerations."},
+              body.random_interval);
+  }
   v.rule(!v.given("random_interval") || body.random_acceleration > 0, {"random_interval"},
          "`random_interval` needs a `random_acceleration` above zero");
   v.file({.name = "acceleration_file",

@@ -255,6 +255,7 @@ class Reader {
     frames_.back().faulty.insert(std::string{last});
   }
 
+  [[nodiscard]] bool visits(bool) const { return true; }
   [[nodiscard]] bool given(std::string_view name) const {
     return frames_.back().table && frames_.back().table->contains(name);
   }
@@ -403,7 +404,7 @@ class Reader {
     for (const SchemaRow& row : schema.rows) {
       if (row.name != name) continue;
       return row.table.empty() ? fmt::format("`{}` belongs at the top, before any table.", name)
-                               : fmt::format("`{}` belongs in {}.", name, row.table);
+                               : fmt::format("`{}` belongs in {}.", name, table_header(row.table));
     }
     std::vector<std::string> known = frame.known;
     std::sort(known.begin(), known.end());

@@ -83,6 +83,7 @@ class Collector {
   void rule(bool, std::initializer_list<std::string_view>, std::string_view statement) {
     schema_.rules.push_back({table_, std::string{statement}});
   }
+  [[nodiscard]] bool visits(bool) const { return true; }
   [[nodiscard]] bool given(std::string_view) const { return false; }
 
  private:
@@ -110,17 +111,6 @@ class Collector {
   std::string table_;
   bool alternative_{false};  // inside a choice of keys of which one is given
 };
-
-std::string heading(const std::string& table) {
-  if (table.empty()) return "## Top of the file\n";
-  // "[wall[].motion]" is not TOML: show how the table is written.
-  std::string name;
-  for (const char letter : table) {
-    if (letter != '[' && letter != ']') name += letter;
-  }
-  const bool list = table.ends_with("[]");
-  return list ? fmt::format("## [[{}]]\n", name) : fmt::format("## [{}]\n", name);
-}
 
 constexpr std::string_view introduction =
     R"(# Scene reference
@@ -156,6 +146,14 @@ std::string describe(const Range& range) {
   return {};
 }
 
+std::string table_header(const std::string& table) {
+  std::string name;
+  for (const char letter : table) {
+    if (letter != '[' && letter != ']') name += letter;
+  }
+  return table.ends_with("[]") ? fmt::format("[[{}]]", name) : fmt::format("[{}]", name);
+}
+
 SceneSchema scene_schema() {
   SceneSchema schema;
   Collector collector{schema};
@@ -174,7 +172,7 @@ std::string scene_reference_markdown() {
   }
   std::string page{introduction};
   for (const std::string& table : tables) {
-    page += "\n" + heading(table) + "\n";
+    page += fmt::format("\n## {}\n\n", table.empty() ? "Top of the file" : table_header(table));
     page += "| key | type | unit | default | range | meaning |\n|---|---|---|---|---|---|\n";
     for (const SchemaRow& row : schema.rows) {
       if (row.table != table) continue;

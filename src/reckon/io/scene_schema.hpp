@@ -56,6 +56,9 @@ struct SceneSchema {
 /// Built from the one description in scene_description.hpp, which also drives reading and writing.
 [[nodiscard]] SceneSchema scene_schema();
 
+/// How TOML writes a table of the schema: "[material]", "[[wall]]", "[[grains.place]]".
+[[nodiscard]] std::string table_header(const std::string& table);
+
 /// The reference page docs/reference/scene.md.
 [[nodiscard]] std::string scene_reference_markdown();
 

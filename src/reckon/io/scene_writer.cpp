@@ -95,6 +95,7 @@ class Writer {
     body(active);
   }
   void rule(bool, std::initializer_list<std::string_view>, std::string_view) {}
+  [[nodiscard]] bool visits(bool matters) const { return matters; }
   [[nodiscard]] bool given(std::string_view) const { return false; }
 
   [[nodiscard]] std::string take() { return std::move(out_); }
