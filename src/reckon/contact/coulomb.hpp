@@ -9,7 +9,7 @@ namespace reckon {
 /// One step of the Coulomb spring (paper, B.2-B.5).
 struct CoulombSlider {
   Vec3 force;      ///< on the master after the step [N]
-  double lost{0};  ///< spring energy lost to sliding [J]
+  double lost{0};  ///< energy lost to sliding [J]
 };
 
 /// Stretches `spring` [N], already in the tangent plane, by the tangential part of
@@ -21,9 +21,10 @@ struct CoulombSlider {
   const Vec3 trial = spring - stiffness * displacement;
   const double trial_squared = squared_norm(trial);
   if (trial_squared <= limit * limit) return {trial, 0};
-  // The energy above the cap is what sliding took: the mean force times the slip.
-  const double trial_norm = std::sqrt(trial_squared);
-  return {(limit / trial_norm) * trial, (trial_squared - limit * limit) / (2 * stiffness)};
+  const Vec3 capped = (limit / std::sqrt(trial_squared)) * trial;
+  // Lost: the slip times the mean of the forces before and after, which is what the step took in
+  // by the trapezoidal rule less what the spring now holds.
+  return {capped, dot(spring + capped, trial - capped) / (2 * stiffness)};
 }
 
 }  // namespace reckon
