@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/avatar/mesh_mass.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace reckon {
+namespace {
+
+// Components this close in size count as equally large when a direction is chosen.
+constexpr double equal_components = 1e-6;
+
+/// Sums over tetrahedra between `origin` and the triangles, relative to `origin`.
+struct Moments {
+  double volume{0};
+  Vec3 first;         // integral of x
+  Vec3 second;        // integrals of xx, yy, zz
+  Vec3 second_mixed;  // integrals of yz, xz, xy
+};
+
+Moments moments_about(const Vec3& origin, const TriangleMesh& mesh) {
+  Moments sum;
+  for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
+    const Vec3 a = mesh.vertices[triangle[0]] - origin;
+    const Vec3 b = mesh.vertices[triangle[1]] - origin;
+    const Vec3 c = mesh.vertices[triangle[2]] - origin;
+    const Vec3 s = a + b + c;
+    const double det = dot(cross(a, b), c);
+    // A tetrahedron with one corner at the origin: volume det/6, integral of x_i det s_i / 24,
+    // integral of x_i x_j det (a_i a_j + b_i b_j + c_i c_j + s_i s_j) / 120.
+    sum.volume += det / 6;
+    sum.first += (det / 24) * s;
+    sum.second += (det / 120) * (hadamard(a, a) + hadamard(b, b) + hadamard(c, c) + hadamard(s, s));
+    const auto mixed = [](const Vec3& v) { return Vec3{v.y * v.z, v.x * v.z, v.x * v.y}; };
+    sum.second_mixed += (det / 120) * (mixed(a) + mixed(b) + mixed(c) + mixed(s));
+  }
+  return sum;
+}
+
+Vec3 with_direction(const Vec3& axis) {
+  const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(axis[i]) >= (1 - equal_components) * largest) return axis[i] < 0 ? -axis : axis;
+  }
+  return axis;
+}
+
+/// The direction across `axis` that is nearest to an axis of the mesh's frame.
+Vec3 nearest_axis_across(const Vec3& axis) {
+  Vec3 best;
+  for (int i = 0; i < 3; ++i) {
+    Vec3 unit;
+    unit[i] = 1;
+    const Vec3 across = unit - dot(unit, axis) * axis;
+    if (norm(across) > (1 + equal_components) * norm(best)) best = across;
+  }
+  return with_direction(normalized(best));
+}
+
+Mat3 axes_of(const Eigen::Matrix3d& eigenvectors, const Vec3& moments) {
+  const auto column = [&](int i) {
+    return Vec3{eigenvectors(0, i), eigenvectors(1, i), eigenvectors(2, i)};
+  };
+  const double tolerance = degenerate_moments * std::abs(moments.z);
+  const bool low_pair = moments.y - moments.x <= tolerance;
+  const bool high_pair = moments.z - moments.y <= tolerance;
+  if (low_pair && high_pair) return {};
+  if (low_pair) {
+    const Vec3 z = with_direction(column(2));
+    const Vec3 x = nearest_axis_across(z);
+    return {x, cross(z, x), z};
+  }
+  const Vec3 x = with_direction(column(0));
+  const Vec3 y = high_pair ? nearest_axis_across(x) : with_direction(column(1));
+  return {x, y, cross(x, y)};
+}
+
+}  // namespace
+
+SolidProperties solid_properties(const TriangleMesh& mesh) {
+  SolidProperties solid;
+  if (mesh.triangles.empty()) return solid;
+  for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
+    const Vec3& a = mesh.vertices[triangle[0]];
+    solid.surface_area +=
+        0.5 * norm(cross(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a));
+  }
+  // Second moments are taken about the centroid itself: shifting them there by the parallel axis
+  // theorem would cancel digits for a mesh far from its origin.
+  const Vec3 start = mesh.vertices[mesh.triangles.front()[0]];
+  const Moments rough = moments_about(start, mesh);
+  solid.centroid = start + rough.first / rough.volume;
+  const Moments sum = moments_about(solid.centroid, mesh);
+  solid.volume = sum.volume;
+  solid.centroid += sum.first / sum.volume;  // what rounding left over
+  solid.inertia = {{sum.second.y + sum.second.z, -sum.second_mixed.z, -sum.second_mixed.y},
+                   {-sum.second_mixed.z, sum.second.x + sum.second.z, -sum.second_mixed.x},
+                   {-sum.second_mixed.y, -sum.second_mixed.x, sum.second.x + sum.second.y}};
+  return solid;
+}
+
+PrincipalFrame principal_frame(const SolidProperties& properties) {
+  const Mat3& inertia = properties.inertia;
+  Eigen::Matrix3d matrix;
+  matrix << inertia.row_x.x, inertia.row_x.y, inertia.row_x.z,  //
+      inertia.row_y.x, inertia.row_y.y, inertia.row_y.z,        //
+      inertia.row_z.x, inertia.row_z.y, inertia.row_z.z;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver{matrix};
+  const Vec3 moments{solver.eigenvalues()(0), solver.eigenvalues()(1), solver.eigenvalues()(2)};
+  return {properties.centroid, axes_of(solver.eigenvectors(), moments), moments};
+}
+
+TriangleMesh to_frame(TriangleMesh mesh, const PrincipalFrame& frame) {
+  for (Vec3& vertex : mesh.vertices) vertex = frame.rotation * (vertex - frame.origin_mesh);
+  return mesh;
+}
+
+TriangleMesh to_principal_frame(TriangleMesh mesh) {
+  const PrincipalFrame frame = principal_frame(solid_properties(mesh));
+  return to_frame(std::move(mesh), frame);
+}
+
+}  // namespace reckon

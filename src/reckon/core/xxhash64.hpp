@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace reckon {
+
+/// The 64-bit xxHash (XXH64, Collet), fed piece by piece. It finds damage, at memory speed; it is
+/// no defence against someone who means to deceive.
+class XxHash64 {
+ public:
+  explicit XxHash64(std::uint64_t seed = 0);
+
+  void update(std::span<const std::byte> bytes);
+  void update(std::string_view text) { update(std::as_bytes(std::span{text})); }
+
+  /// The hash of everything so far; more may follow.
+  [[nodiscard]] std::uint64_t digest() const;
+
+ private:
+  std::uint64_t seed_;
+  std::array<std::uint64_t, 4> lanes_;
+  std::array<std::byte, 32> pending_{};  // the last size_ % 32 bytes
+  std::uint64_t size_{0};
+};
+
+}  // namespace reckon
