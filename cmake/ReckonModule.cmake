@@ -31,8 +31,11 @@ function(reckon_test name)
   target_link_libraries(test_${name} PRIVATE reckon_flags ${arg_DEPENDS} GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE RECKON_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   list(JOIN arg_LABELS "," labels)  # one label; ctest -L finds its parts, being a search
+  if(labels)
+    set(labels LABELS "${labels}")
+  endif()
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${labels}" ENVIRONMENT "OMP_WAIT_POLICY=passive")  # tests share the cores
+    PROPERTIES ${labels} ENVIRONMENT "OMP_WAIT_POLICY=passive")  # tests share the cores
   if(threads IN_LIST arg_LABELS)
     if(NOT TARGET threaded_tests)
       add_custom_target(threaded_tests)

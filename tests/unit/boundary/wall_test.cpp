@@ -7,19 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "reckon/math/turns.hpp"
-
 namespace reckon {
 namespace {
-
-TEST(SineOfTurns, AgreesWithTheLibraryEverywhere) {
-  for (int n = -4000; n <= 4000; ++n) {
-    const double turns = n * 0.00137;
-    EXPECT_NEAR(sine_of_turns(turns), std::sin(2 * std::numbers::pi * turns), 2e-14);
-  }
-  EXPECT_EQ(sine_of_turns(0), 0);
-  EXPECT_NEAR(sine_of_turns(0.25), 1, 3e-16);
-}
 
 TEST(WallSurface, DistanceIsPositiveWhereGrainsMayBe) {
   const PlaneSurface floor{{0, 0, 1}, {0, 0, 1}};
