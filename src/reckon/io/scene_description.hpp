@@ -109,6 +109,13 @@ void describe(Visitor& v, ContactConfig& contact) {
             .standard = "no dashpot",
             .meaning = "Coefficient of restitution that sets a normal dashpot in each contact."},
            contact.restitution);
+  v.number({.name = "viscosity",
+            .unit = "N s/m^3",
+            .range = at_least(0),
+            .meaning = "Law `area`: a further normal dashpot per area of touching nodes."},
+           contact.viscosity);
+  v.rule(contact.viscosity == 0 || contact.law == ContactLawKind::area, {"viscosity"},
+         "`viscosity` belongs to law `area`; law `linear` is damped by `restitution`");
   v.integer({.name = "node_cap",
              .range = at_least(1),
              .standard = "no cap",
