@@ -45,6 +45,8 @@ struct Choice {
   std::string_view word;
   Value value;
 };
+template <class Value>  // which compilers before C++20's own rule need to be told
+Choice(std::string_view, Value) -> Choice<Value>;
 
 /// How many of the keys of one_of must be given.
 enum class Presence { exactly_one, at_most_one };
