@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -78,8 +79,8 @@ TEST(GuardDeathTest, KeepsTheInputThatCrashesOrHangs) {
   const auto hang_inside = [&] {
     const std::string input = "another input";
     const Guard guard{path, input, 1};
-    for (volatile unsigned n = 0;; n = n + 1) {
-    }
+    std::atomic<unsigned> turns{0};
+    while (true) ++turns;
   };
   std::filesystem::remove(path);
   EXPECT_DEATH(hang_inside(), "took too long");

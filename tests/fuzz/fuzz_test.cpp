@@ -82,7 +82,7 @@ TEST_P(Reader, AnswersDamagedInputWithACleanErrorOrNone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Reader, testing::ValuesIn(all_targets()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& reader) { return reader.param.name; });
 
 }  // namespace
 }  // namespace reckon::fuzz
