@@ -192,7 +192,7 @@ void save_library(const std::filesystem::path& path, const ShapeLibrary& library
     throw Error{{.place = path.string(),
                  .problem = "a shape library needs at least one shape",
                  .reason = {},
-                 .fix = {}}};
+                 .fix = "Give at least one source."}};
   }
   check_names(path, library);
   for (const Shape& shape : library) check_shape(shape, "shape " + shape.name);
@@ -265,7 +265,7 @@ ShapeLibrary load_shapes(const std::filesystem::path& path, std::span<const Shap
       throw Error{{.place = path.string(),
                    .problem = fmt::format("has no shape {}", id.get()),
                    .reason = fmt::format("it has {} shapes, counted from 0", reader.size()),
-                   .fix = {}}};
+                   .fix = "reckon grains info lists what it holds."}};
     }
     library.push_back(reader.shape(id.get()));
   }
