@@ -37,7 +37,9 @@ class TextReader {
   /// Throws Error for the current line.
   [[noreturn]] void fail(std::string problem, std::string reason, std::string fix) const;
 
+  /// What follows the current line, and what is left of it.
   [[nodiscard]] std::string_view remaining_text() const { return rest_; }
+  [[nodiscard]] std::string_view remaining_line() const { return line_; }
   [[nodiscard]] std::size_t line_number() const { return line_number_; }
 
  private:
@@ -48,6 +50,9 @@ class TextReader {
 };
 
 /// A piece of an input for an error text: cut short, control characters replaced.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
+
+/// With A to Z in lower case; other bytes stay, whatever the locale.
+[[nodiscard]] std::string lower_case(std::string_view text);
 
 }  // namespace reckon
