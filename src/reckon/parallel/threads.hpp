@@ -61,4 +61,19 @@ void parallel_for(std::size_t count, std::size_t chunk, Body&& body) {
   if (failure) std::rethrow_exception(failure);
 }
 
+/// The largest value(k) over k in [0, count), or `least` if that is larger. The order of comparing
+/// does not matter, so neither does the number of threads.
+template <class Value>
+[[nodiscard]] double parallel_max(std::size_t count, double least, Value&& value) {
+  double largest = least;
+#ifdef _OPENMP
+#pragma omp parallel for schedule(static) reduction(max : largest)
+#endif
+  for (std::size_t k = 0; k < count; ++k) {
+    const double v = value(k);
+    if (v > largest) largest = v;
+  }
+  return largest;
+}
+
 }  // namespace reckon

@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "reckon/boundary/wall.hpp"
+#include "reckon/contact/contact_settings.hpp"
 #include "reckon/math/vec3.hpp"
 
 namespace reckon {
@@ -24,19 +26,13 @@ struct MaterialConfig {
 };
 
 enum class ContactLawKind { linear, area };
-/// Whose nodes are tested in whose level set.
-enum class MasterRule {
-  lower_id,  ///< the grain with the lower id is the master (paper, appendix A)
-  smaller,   ///< the grain with the smaller bounding radius; equal radii fall back to lower_id
-  both       ///< both ways, each with half weight
-};
-
 /// How touching nodes push. See algorithms in docs/theory.
 struct ContactConfig {
   ContactLawKind law{ContactLawKind::area};
   double normal_stiffness{0};  ///< linear: k_n [N/m] per node; area: k_n [N/m^3]; > 0, no default
   double shear_stiffness{0};   ///< same unit; > 0; io defaults it to 0.9 k_n
   std::optional<double> restitution;  ///< in (0, 1): adds a normal dashpot; absent: none
+  double viscosity{0};                ///< area: a further normal dashpot per area [N s/m^3], >= 0
   std::optional<std::uint32_t>
       node_cap;  ///< linear: pairs with more touching nodes are scaled by cap/n
   MasterRule master{MasterRule::lower_id};
@@ -49,16 +45,6 @@ struct BodyForceConfig {
   double random_acceleration{0};     ///< each component uniform in [-a, a] [m/s^2], >= 0
   std::uint64_t random_interval{1};  ///< steps between new random accelerations; >= 1
   std::string acceleration_file;     ///< one line "ax ay az" [m/s^2] per grain; empty: none
-};
-
-/// How a wall moves: position changes by velocity * t, plus amplitude * sin(2 pi f t), while
-/// start <= t < stop.
-struct WallMotion {
-  Vec3 velocity;               ///< [m/s]
-  Vec3 amplitude;              ///< [m]
-  double frequency{0};         ///< [Hz]
-  double start{0};             ///< [s]
-  std::optional<double> stop;  ///< [s]
 };
 
 /// A half space; grains are kept on the side that the normal points to.
@@ -122,9 +108,10 @@ struct GrainsConfig {
 };
 
 struct TimeConfig {
-  std::optional<double> step;  ///< [s]; absent: step_fraction * sqrt(m_min / k)
-  double step_fraction{0.1};   ///< in (0, 1]
-  std::uint64_t steps{0};      ///< how many to run; io computes it from a duration
+  std::optional<double> step;                      ///< [s]; absent: see choose_time_step
+  double step_fraction{0.1};                       ///< in (0, 1]
+  std::optional<std::uint64_t> steps;              ///< how many to run; either this or duration
+  std::optional<double> duration;                  ///< [s]
   std::optional<double> stop_at_unbalanced_ratio;  ///< ends the run early when at rest
 };
 

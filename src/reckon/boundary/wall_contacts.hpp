@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "reckon/boundary/wall.hpp"
+#include "reckon/contact/history.hpp"
+#include "reckon/contact/touch.hpp"
+#include "reckon/grains/grain_frame.hpp"
+
+namespace reckon {
+
+/// What one wall does to one grain at the current step.
+struct WallForce {
+  Vec3 force;          ///< on the grain [N]
+  Vec3 moment;         ///< about its centre of mass [N m]
+  double deepest{0};   ///< [m]
+  double elastic{0};   ///< stored [J]
+  double friction{0};  ///< lost in this step [J]
+  double dashpot{0};   ///< lost in this step [J]
+  double work{0};      ///< done on the grain by the moving wall in this step [J]
+  std::uint32_t touching{0};
+};
+
+/// Springs of one grain on one wall, as a checkpoint or a message carries them.
+struct WallSprings {
+  GrainId grain;
+  WallId wall;
+  std::vector<NodeSpring> springs;
+};
+
+/// Contacts between grains and walls. Used like GrainContacts; loads are to be added after those of
+/// the grains, a grain's walls in the order of the scene.
+class WallContacts {
+ public:
+  explicit WallContacts(std::vector<Wall> walls) : walls_{std::move(walls)} {}
+
+  /// Places the walls for one step. To be called before rebuild and evaluate.
+  void move_walls(std::uint64_t step, double time_step);
+  void rebuild(std::span<const GrainFrame> frames, double skin);
+  void evaluate(std::span<const GrainFrame> frames, double time_step);
+  void add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const;
+  void commit();
+
+  [[nodiscard]] std::span<const Wall> walls() const { return walls_; }
+  [[nodiscard]] std::span<const WallPose> poses() const { return poses_; }
+
+  /// A grain close enough to a wall to be tested; sorted by (slot, wall).
+  struct Candidate {
+    std::uint32_t slot;
+    WallId wall;
+    GrainId grain;
+  };
+  [[nodiscard]] std::span<const Candidate> candidates() const { return candidates_; }
+  [[nodiscard]] std::span<const WallForce> forces() const { return forces_; }
+
+  /// Springs of all touching candidates, sorted by (grain, wall).
+  [[nodiscard]] std::vector<WallSprings> springs() const;
+  /// Takes over springs from a checkpoint; a rebuild must follow.
+  void restore(std::span<const WallSprings> springs);
+
+ private:
+  std::vector<Wall> walls_;
+  std::vector<WallPose> poses_;
+  std::vector<Candidate> candidates_;
+  std::vector<std::uint32_t> first_of_slot_;
+  std::vector<SpringRange> springs_of_candidate_;
+  std::vector<SpringRange> new_springs_of_candidate_;
+  std::vector<WallForce> forces_;
+  SpringStore store_;
+};
+
+}  // namespace reckon

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <variant>
+
+#include "reckon/contact/area_law.hpp"
+#include "reckon/contact/linear_law.hpp"
+
+namespace reckon {
+
+/// Every law that a scene can choose. Kernels are compiled once for each.
+using AnyContactLaw = std::variant<LinearLaw, AreaLaw>;
+
+/// Whose nodes are tested in whose level set.
+enum class MasterRule {
+  lower_id,  ///< the grain with the lower id is the master (paper, appendix A)
+  smaller,   ///< the grain with the smaller bounding radius; equal radii fall back to lower_id
+  both       ///< both ways, each with half weight
+};
+
+/// How two grains touch.
+struct ContactSettings {
+  AnyContactLaw law;
+  double friction{0};  ///< Coulomb coefficient
+  MasterRule master{MasterRule::lower_id};
+};
+
+}  // namespace reckon

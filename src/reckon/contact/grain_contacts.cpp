@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/contact/grain_contacts.hpp"
+
+#include <algorithm>
+
+#include "reckon/contact/pair_kernel.hpp"
+#include "reckon/parallel/threads.hpp"
+
+namespace reckon {
+namespace {
+
+constexpr std::size_t pairs_per_task = 32;
+
+RigidMotion motion_of(const GrainFrame& grain) {
+  return {grain.position, grain.velocity, grain.angular_velocity_world};
+}
+
+void add_directed(PairForce& pair, const DirectedForce& directed, bool master_is_b) {
+  pair.force_on_a += master_is_b ? -directed.force : directed.force;
+  pair.moment_a += master_is_b ? directed.moment_slave : directed.moment_master;
+  pair.moment_b += master_is_b ? directed.moment_master : directed.moment_slave;
+  pair.deepest = std::max(pair.deepest, directed.deepest);
+  pair.elastic += directed.elastic;
+  pair.friction += directed.friction;
+  pair.dashpot += directed.dashpot;
+  pair.touching += directed.touching;
+}
+
+bool ids_less(GrainId a1, GrainId b1, GrainId a2, GrainId b2) {
+  return a1 != a2 ? a1 < a2 : b1 < b2;
+}
+
+}  // namespace
+
+void GrainContacts::rebuild(std::span<const GrainFrame> frames, double skin) {
+  std::vector<GrainId> ids(frames.size());
+  std::vector<Vec3> positions(frames.size());
+  std::vector<double> radii(frames.size());
+  for (std::size_t slot = 0; slot < frames.size(); ++slot) {
+    ids[slot] = frames[slot].id;
+    positions[slot] = frames[slot].position;
+    radii[slot] = frames[slot].shape->bounding_radius;
+  }
+  std::vector<Pair> pairs = find_pairs(ids, positions, radii, skin);
+  std::vector<SpringRange> springs(pairs.size());
+  std::size_t old = 0;  // both lists are sorted by ids
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    while (old < pairs_.size() &&
+           ids_less(pairs_[old].id_a, pairs_[old].id_b, pairs[p].id_a, pairs[p].id_b)) {
+      ++old;
+    }
+    if (old < pairs_.size() && pairs_[old].id_a == pairs[p].id_a &&
+        pairs_[old].id_b == pairs[p].id_b) {
+      springs[p] = springs_of_pair_[old];
+    }
+  }
+  pairs_ = std::move(pairs);
+  springs_of_pair_ = std::move(springs);
+  pairs_of_grain_ = index_pairs(pairs_, frames.size());
+}
+
+template <ContactLaw Law>
+PairForce GrainContacts::evaluate_pair(const Law& law, const GrainFrame& a, const GrainFrame& b,
+                                       std::span<const NodeSpring> old_springs, double time_step,
+                                       std::vector<Touch>& touches,
+                                       std::vector<NodeSpring>& new_springs) const {
+  PairForce pair;
+  const PairContext context{.effective_mass = a.mass * b.mass / (a.mass + b.mass),
+                            .friction = settings_.friction,
+                            .time_step = time_step};
+  const auto first_of_b = std::find_if(old_springs.begin(), old_springs.end(),
+                                       [](const NodeSpring& s) { return s.master_is_b; });
+  const auto a_count = static_cast<std::size_t>(first_of_b - old_springs.begin());
+  const auto directed = [&](bool master_is_b, double weight) {
+    const GrainFrame& master = master_is_b ? b : a;
+    const GrainFrame& slave = master_is_b ? a : b;
+    touches.clear();
+    find_touches(master, slave, touches);
+    const auto old = master_is_b ? old_springs.subspan(a_count) : old_springs.first(a_count);
+    if (touches.empty() && old.empty()) return;
+    add_directed(pair,
+                 respond(law, context, master.position, motion_of(master), motion_of(slave),
+                         touches, old, master.shape->node_area, master_is_b, weight, new_springs),
+                 master_is_b);
+  };
+  switch (settings_.master) {
+    case MasterRule::lower_id:
+      directed(false, 1);
+      break;
+    case MasterRule::smaller:
+      directed(b.shape->bounding_radius < a.shape->bounding_radius, 1);
+      break;
+    case MasterRule::both:
+      directed(false, 0.5);
+      directed(true, 0.5);
+      break;
+  }
+  return pair;
+}
+
+void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_step) {
+  forces_.resize(pairs_.size());
+  new_springs_of_pair_.resize(pairs_.size());
+  store_.begin_writing(thread_count());
+  std::vector<std::vector<Touch>> scratch(static_cast<std::size_t>(thread_count()));
+  std::visit(
+      [&](const auto& law) {
+        parallel_for(pairs_.size(), pairs_per_task, [&](std::size_t p) {
+          const Pair& pair = pairs_[p];
+          const auto old_springs = store_.read(springs_of_pair_[p]);
+          auto& touches = scratch[static_cast<std::size_t>(thread_index())];
+          new_springs_of_pair_[p] = store_.append([&](std::vector<NodeSpring>& arena) {
+            forces_[p] = evaluate_pair(law, frames[pair.slot_a], frames[pair.slot_b], old_springs,
+                                       time_step, touches, arena);
+          });
+        });
+      },
+      settings_.law);
+}
+
+void GrainContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const {
+  parallel_for(loads.size(), 64, [&](std::size_t slot) {
+    for (const auto& entry : pairs_of_grain_.of(slot)) {
+      const PairForce& pair = forces_[entry.pair];
+      // A pair that is listed but does not touch adds nothing, not even a signed zero: the answer
+      // must not depend on the list.
+      if (pair.touching > 0) {
+        loads[slot] += entry.is_a ? Load{pair.force_on_a, pair.moment_a}
+                                  : Load{-pair.force_on_a, pair.moment_b};
+      }
+      if (entry.is_a) {
+        if (pair.friction != 0) ledgers[slot].friction += pair.friction;
+        if (pair.dashpot != 0) ledgers[slot].dashpot += pair.dashpot;
+      }
+    }
+  });
+}
+
+void GrainContacts::commit() {
+  store_.commit();
+  springs_of_pair_.swap(new_springs_of_pair_);
+}
+
+std::vector<PairSprings> GrainContacts::springs() const {
+  std::vector<PairSprings> all;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto springs = store_.read(springs_of_pair_[p]);
+    if (springs.empty()) continue;
+    all.push_back({pairs_[p].id_a, pairs_[p].id_b, {springs.begin(), springs.end()}});
+  }
+  return all;
+}
+
+void GrainContacts::restore(std::span<const PairSprings> springs) {
+  pairs_.clear();
+  springs_of_pair_.clear();
+  store_.begin_writing(1);
+  for (const PairSprings& pair : springs) {
+    pairs_.push_back({pair.id_a, pair.id_b, 0, 0});
+    springs_of_pair_.push_back(store_.append([&](std::vector<NodeSpring>& arena) {
+      arena.insert(arena.end(), pair.springs.begin(), pair.springs.end());
+    }));
+  }
+  store_.commit();
+}
+
+}  // namespace reckon

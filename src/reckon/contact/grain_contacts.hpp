@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reckon/contact/contact_settings.hpp"
+#include "reckon/contact/history.hpp"
+#include "reckon/contact/touch.hpp"
+#include "reckon/grains/grain_frame.hpp"
+#include "reckon/neighbor/pair_list.hpp"
+
+namespace reckon {
+
+/// What one pair of grains does at the current step.
+struct PairForce {
+  Vec3 force_on_a;            ///< on the grain of lower id; the other gets the opposite [N]
+  Vec3 moment_a;              ///< about a's centre of mass [N m]
+  Vec3 moment_b;              ///< about b's centre of mass [N m]
+  double deepest{0};          ///< largest penetration of a node [m]
+  double elastic{0};          ///< stored [J]
+  double friction{0};         ///< lost in this step [J]
+  double dashpot{0};          ///< lost in this step [J]
+  std::uint32_t touching{0};  ///< nodes
+};
+
+/// Springs of one pair as a checkpoint or a message carries them.
+struct PairSprings {
+  GrainId id_a;
+  GrainId id_b;
+  std::vector<NodeSpring> springs;  ///< a's nodes first, each in node order
+};
+
+/// Contacts between grains: the list of pairs, their springs and their forces.
+///
+/// A step is evaluate(), then add_loads(), then commit(). Without commit() the springs stay those
+/// of the last step, so forces can be looked at without moving on.
+class GrainContacts {
+ public:
+  explicit GrainContacts(ContactSettings settings) : settings_{std::move(settings)} {}
+
+  /// Lists the pairs anew from where the grains are now; touching pairs keep their springs.
+  void rebuild(std::span<const GrainFrame> frames, double skin);
+
+  /// Finds touching nodes and computes the force of every listed pair.
+  void evaluate(std::span<const GrainFrame> frames, double time_step);
+
+  /// Adds every pair's force to its grains, each grain's pairs in the order of the partners' ids,
+  /// and the pair's losses to its grain of lower id. Arrays are per slot.
+  void add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const;
+
+  /// The springs of the last evaluate() become the memory of the next.
+  void commit();
+
+  [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
+  [[nodiscard]] std::span<const PairForce> forces() const { return forces_; }
+
+  /// Springs of all touching pairs, sorted by (id_a, id_b).
+  [[nodiscard]] std::vector<PairSprings> springs() const;
+  /// Takes over springs from a checkpoint; pairs that are not listed are listed at the next
+  /// rebuild, which must follow.
+  void restore(std::span<const PairSprings> springs);
+
+ private:
+  template <ContactLaw Law>
+  PairForce evaluate_pair(const Law& law, const GrainFrame& a, const GrainFrame& b,
+                          std::span<const NodeSpring> old_springs, double time_step,
+                          std::vector<Touch>& touches, std::vector<NodeSpring>& new_springs) const;
+
+  ContactSettings settings_;
+  std::vector<Pair> pairs_;
+  PairsOfGrain pairs_of_grain_;
+  std::vector<SpringRange> springs_of_pair_;  // in store_, as of the last commit
+  std::vector<SpringRange> new_springs_of_pair_;
+  std::vector<PairForce> forces_;
+  SpringStore store_;
+};
+
+}  // namespace reckon

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "reckon/contact/coulomb.hpp"
+#include "reckon/contact/touch.hpp"
+
+namespace reckon {
+
+/// The paper's law (appendices A and B): every touching node is a spring of its own, so a pair's
+/// stiffness grows with its number of touching nodes.
+///
+///   F_n = -k_n phi n - gamma (v . n) n        F_s: Coulomb spring with k_s, |F_s| <= mu |F_n|
+///
+/// Two options follow the authors' public code. The dashpot gamma = dashpot_factor sqrt(k_n m_eff)
+/// may pull near separation. The cap scales a pair with n > node_cap touching nodes by node_cap/n.
+struct LinearLaw {
+  double normal_stiffness{0};  ///< k_n [N/m]
+  double shear_stiffness{0};   ///< k_s [N/m]
+  double dashpot_factor{0};    ///< see linear_dashpot_factor; 0: none
+  std::uint32_t node_cap{0};   ///< 0: none
+
+  [[nodiscard]] NodeResponse respond(const PairContext& context, const Touch& touch,
+                                     const Vec3& normal, const Vec3& velocity,
+                                     const Vec3& spring) const {
+    const double approach = dot(normal, velocity);
+    const double gamma = dashpot_factor > 0
+                             ? dashpot_factor * std::sqrt(normal_stiffness * context.effective_mass)
+                             : 0;
+    const double push = -normal_stiffness * touch.phi - gamma * approach;
+    const CoulombSlider shear = slide(spring, velocity, normal, context.time_step, shear_stiffness,
+                                      context.friction * std::abs(push));
+    return {.force = push * normal + shear.force,
+            .shear_force = shear.force,
+            .elastic = 0.5 * normal_stiffness * touch.phi * touch.phi +
+                       stored_shear_energy(shear.force, touch.area),
+            .friction = shear.lost,
+            .dashpot = gamma * approach * approach * context.time_step};
+  }
+
+  [[nodiscard]] double pair_scale(const PairContext& context) const {
+    return node_cap > 0 && context.touching > node_cap
+               ? static_cast<double>(node_cap) / static_cast<double>(context.touching)
+               : 1.0;
+  }
+
+  [[nodiscard]] double stored_shear_energy(const Vec3& spring, double /*area*/) const {
+    return squared_norm(spring) / (2 * shear_stiffness);
+  }
+};
+static_assert(ContactLaw<LinearLaw>);
+
+/// The dashpot of a linear spring that returns the share `restitution` of the approach velocity:
+/// gamma / sqrt(k m) = -2 ln e / sqrt(pi^2 + ln^2 e).
+[[nodiscard]] double linear_dashpot_factor(double restitution);
+
+}  // namespace reckon

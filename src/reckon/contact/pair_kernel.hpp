@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "reckon/contact/history.hpp"
+#include "reckon/contact/touch.hpp"
+#include "reckon/grains/grain_frame.hpp"
+
+namespace reckon {
+
+/// What one master does to one slave through all its touching nodes.
+struct DirectedForce {
+  Vec3 force;          ///< on the master, world frame [N]
+  Vec3 moment_master;  ///< about the master's centre of mass, world frame [N m]
+  Vec3 moment_slave;   ///< of the opposite force, about the slave's centre of mass [N m]
+  std::uint32_t touching{0};
+  double deepest{0};   ///< largest penetration [m]
+  double elastic{0};   ///< [J]
+  double friction{0};  ///< lost in this step [J]
+  double dashpot{0};   ///< lost in this step [J]
+};
+
+/// How the slave moves: the velocity of its material at a point.
+struct RigidMotion {
+  Vec3 center;                  ///< [m]
+  Vec3 velocity;                ///< [m/s]
+  Vec3 angular_velocity_world;  ///< [rad/s]
+};
+
+/// The plain finder (paper, Algorithm 2): every node of the master, in order, is taken to the
+/// slave's frame, checked against its bounding sphere, then interpolated. Appends to `touches`.
+void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector<Touch>& touches);
+
+/// Turns the touching nodes of one master into forces, in node order, and appends their new
+/// springs. `old_springs` are last step's springs of the same master and slave, in node order.
+/// `weight` scales forces and energies (1, or 1/2 where both grains are masters in turn), not the
+/// springs.
+template <ContactLaw Law>
+DirectedForce respond(const Law& law, PairContext context, const Vec3& master_center,
+                      const RigidMotion& master, const RigidMotion& slave,
+                      std::span<const Touch> touches, std::span<const NodeSpring> old_springs,
+                      std::span<const double> node_area, bool master_is_b, double weight,
+                      std::vector<NodeSpring>& new_springs) {
+  DirectedForce sum;
+  context.touching = static_cast<std::uint32_t>(touches.size());
+  context.total_area = 0;
+  context.total_volume = 0;
+  for (const Touch& touch : touches) {
+    context.total_area += touch.area;
+    context.total_volume -= touch.area * touch.phi;
+  }
+
+  const Vec3 center_offset = master_center - slave.center;
+  auto old = old_springs.begin();
+  const auto let_go = [&](const NodeSpring& spring) {
+    sum.friction += law.stored_shear_energy(spring.shear_force, node_area[spring.node]);
+  };
+  for (const Touch& touch : touches) {
+    const double steepness = norm(touch.gradient_world);
+    if (!(steepness > 0)) continue;  // a flat spot of the distance has no normal
+    const Vec3 normal = touch.gradient_world / steepness;
+    const Vec3 lever_slave = touch.lever_world + center_offset;
+    const Vec3 velocity = (master.velocity - slave.velocity) +
+                          cross(master.angular_velocity_world, touch.lever_world) -
+                          cross(slave.angular_velocity_world, lever_slave);
+    while (old != old_springs.end() && old->node < touch.node) let_go(*old++);
+    Vec3 spring;
+    if (old != old_springs.end() && old->node == touch.node) {
+      spring = rotate_between(old->shear_force, old->normal, normal);
+      ++old;
+    }
+    const NodeResponse node = law.respond(context, touch, normal, velocity, spring);
+    sum.force += node.force;
+    sum.moment_master += cross(touch.lever_world, node.force);
+    sum.moment_slave -= cross(lever_slave, node.force);
+    sum.deepest = std::max(sum.deepest, -touch.phi);
+    sum.elastic += node.elastic;
+    sum.friction += node.friction;
+    sum.dashpot += node.dashpot;
+    new_springs.push_back({touch.node, master_is_b, node.shear_force, normal});
+    ++sum.touching;
+  }
+  while (old != old_springs.end()) let_go(*old++);
+
+  const double scale = weight * law.pair_scale(context);
+  sum.force *= scale;
+  sum.moment_master *= scale;
+  sum.moment_slave *= scale;
+  sum.elastic *= scale;
+  sum.friction *= scale;
+  sum.dashpot *= scale;
+  return sum;
+}
+
+}  // namespace reckon

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <concepts>
+
+#include "reckon/core/id.hpp"
+#include "reckon/math/vec3.hpp"
+
+namespace reckon {
+
+/// A node of the master that lies inside the slave: phi < 0. What a finder hands to a law.
+struct Touch {
+  NodeIndex node{0};
+  double phi{0};        ///< signed distance in the slave, negative [m]
+  Vec3 gradient_world;  ///< of the slave's interpolated distance, not normalised, out of the slave
+  Vec3 lever_world;     ///< node minus the master's centre of mass [m]
+  double area{0};       ///< the node's tributary area [m^2]
+};
+
+/// What all touching nodes of one pair share.
+struct PairContext {
+  double effective_mass{0};   ///< m_a m_b / (m_a + m_b); the grain's own mass on a wall [kg]
+  double friction{0};         ///< Coulomb coefficient
+  double total_area{0};       ///< of the touching nodes [m^2]
+  double total_volume{0};     ///< sum of their areas times depths [m^3]
+  std::uint32_t touching{0};  ///< number of touching nodes
+  double time_step{0};        ///< [s]
+};
+
+/// What a law answers for one node.
+struct NodeResponse {
+  Vec3 force;          ///< on the master, world frame [N]
+  Vec3 shear_force;    ///< its frictional part: the new spring [N]
+  double elastic{0};   ///< energy stored in the node's springs [J]
+  double friction{0};  ///< energy lost to sliding in this step [J]
+  double dashpot{0};   ///< energy lost to the dashpot in this step [J]
+};
+
+/// A contact law: a small value type that turns one touching node into forces.
+/// - `respond`: the node's forces. `normal` is the unit normal out of the slave; `spring` is last
+///   step's shear force already turned to today's normal; `velocity` is that of the master's node
+///   relative to the slave [m/s].
+/// - `pair_scale`: a factor on everything that a pair of `context.touching` nodes does.
+/// - `stored_shear_energy`: of a spring that is about to be dropped because its node let go [J].
+template <class Law>
+concept ContactLaw = requires(const Law law, const PairContext& context, const Touch& touch,
+                              const Vec3& vector, double area) {
+  { law.respond(context, touch, vector, vector, vector) } -> std::same_as<NodeResponse>;
+  { law.pair_scale(context) } -> std::same_as<double>;
+  { law.stored_shear_energy(vector, area) } -> std::same_as<double>;
+};
+
+}  // namespace reckon

@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/io/checkpoint.hpp"
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "reckon/core/error.hpp"
+#include "reckon/core/hdf5_file.hpp"
+
+namespace reckon {
+namespace {
+
+const Hdf5Kind kind{"checkpoint", 1};
+
+/// How the parts of the state lie in columns. The same walk fills columns from the state, and the
+/// state from columns: `Columns` offers number, vector, quaternion, id and flag.
+template <class Columns, class Grain>
+void walk_grain(Columns& columns, Grain& grain) {
+  columns.id("id", grain.id);
+  columns.id("shape", grain.shape);
+  columns.flag("prescribed", grain.prescribed);
+  columns.vector("position", "m", grain.position);
+  columns.quaternion("orientation", grain.orientation);
+  columns.vector("velocity", "m/s", grain.velocity);
+  columns.vector("angular_velocity_body", "rad/s", grain.angular_velocity_body);
+  columns.vector("angular_increment_body", "rad/s", grain.angular_increment_body);
+  columns.number("lost_to_friction", "J", grain.ledger.friction);
+  columns.number("lost_to_dashpots", "J", grain.ledger.dashpot);
+  columns.number("lost_to_damping", "J", grain.ledger.damping);
+  columns.number("work_of_body_forces", "J", grain.ledger.body_work);
+  columns.number("work_of_walls", "J", grain.ledger.wall_work);
+}
+
+template <class Columns, class Spring>
+void walk_spring(Columns& columns, Spring& spring) {
+  columns.integer("node", spring.node);
+  columns.flag("master_is_b", spring.master_is_b);
+  columns.vector("shear_force", "N", spring.shear_force);
+  columns.vector("normal", "1", spring.normal);
+}
+
+/// Appends one row per walk to the columns of a table, which the first walk makes.
+class Appender {
+ public:
+  Appender(std::string table, std::vector<CheckpointColumn>& columns)
+      : table_{std::move(table)}, columns_{columns}, first_{columns.size()} {}
+
+  /// To be called before each row.
+  void begin_row() { next_ = first_; }
+
+  void number(const char* name, const char* unit, double value) { append(name, unit, {value}); }
+  void vector(const char* name, const char* unit, const Vec3& v) {
+    append<double, 3>(name, unit, {v.x, v.y, v.z});
+  }
+  void quaternion(const char* name, const Quaternion& q) {
+    append<double, 4>(name, "1", {q.w, q.x, q.y, q.z});
+  }
+  template <class Id>
+  void id(const char* name, const Id& value) {
+    append<std::uint32_t, 1>(name, "1", {value.get()});
+  }
+  void integer(const char* name, std::uint32_t value) {
+    append<std::uint32_t, 1>(name, "1", {value});
+  }
+  void integer(const char* name, std::uint64_t value) {
+    append<std::uint64_t, 1>(name, "1", {value});
+  }
+  void flag(const char* name, bool value) {
+    append<std::uint8_t, 1>(name, "1", {static_cast<std::uint8_t>(value ? 1 : 0)});
+  }
+
+ private:
+  template <class Number = double, std::size_t width = 1>
+  void append(const char* name, const char* unit, std::array<Number, width> row) {
+    if (next_ == columns_.size()) {
+      columns_.push_back({table_ + name, unit, width, std::vector<Number>{}});
+    }
+    auto& values = std::get<std::vector<Number>>(columns_[next_++].values);
+    values.insert(values.end(), row.begin(), row.end());
+  }
+
+  std::string table_;
+  std::vector<CheckpointColumn>& columns_;
+  std::size_t first_;
+  std::size_t next_{0};
+};
+
+/// Makes the columns of a table without any row, so that empty tables are in the file too.
+template <class Walk>
+void append_rows(const std::string& table, std::size_t rows, std::vector<CheckpointColumn>& columns,
+                 Walk&& walk) {
+  Appender appender{table, columns};
+  const std::size_t first = columns.size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    appender.begin_row();
+    walk(appender, row);
+  }
+  if (rows > 0) return;
+  appender.begin_row();
+  walk(appender, 0);
+  for (std::size_t c = first; c < columns.size(); ++c) {
+    std::visit([](auto& values) { values.clear(); }, columns[c].values);
+  }
+}
+
+/// Springs of all pairs behind each other, with where each pair's begin.
+struct FlatSprings {
+  std::vector<NodeSpring> springs;
+  std::vector<std::uint64_t> first;  // per pair, and one past the end
+};
+
+template <class Pairs>
+FlatSprings flatten(const Pairs& pairs) {
+  FlatSprings flat;
+  flat.first.push_back(0);
+  for (const auto& pair : pairs) {
+    flat.springs.insert(flat.springs.end(), pair.springs.begin(), pair.springs.end());
+    flat.first.push_back(flat.springs.size());
+  }
+  return flat;
+}
+
+template <class T>
+const T& row_or_blank(const std::vector<T>& rows, std::size_t row, const T& blank) {
+  return row < rows.size() ? rows[row] : blank;
+}
+
+void append_springs(const std::string& table, const FlatSprings& flat,
+                    std::vector<CheckpointColumn>& columns) {
+  append_rows(table, flat.springs.size(), columns, [&](Appender& to, std::size_t row) {
+    walk_spring(to, row_or_blank(flat.springs, row, NodeSpring{}));
+  });
+}
+
+/// Reads the columns of one table row by row.
+class Extractor {
+ public:
+  Extractor(std::string table, std::uint64_t rows, const Hdf5Reader& file)
+      : table_{std::move(table)}, rows_{rows}, file_{file} {}
+
+  void begin_row(std::size_t row) {
+    row_ = row;
+    next_ = 0;
+  }
+  void number(const char* name, const char*, double& value) {
+    value = take<double, 1>(name)[0];
+  }
+  void vector(const char* name, const char*, Vec3& v) {
+    const auto row = take<double, 3>(name);
+    v = {row[0], row[1], row[2]};
+  }
+  void quaternion(const char* name, Quaternion& q) {
+    const auto row = take<double, 4>(name);
+    q = {row[0], row[1], row[2], row[3]};
+  }
+  template <class Id>
+  void id(const char* name, Id& value) {
+    value = Id{take<std::uint32_t, 1>(name)[0]};
+  }
+  void integer(const char* name, std::uint32_t& value) { value = take<std::uint32_t, 1>(name)[0]; }
+  void flag(const char* name, bool& value) { value = take<std::uint8_t, 1>(name)[0] != 0; }
+
+ private:
+  template <class Number, std::size_t width>
+  std::array<Number, width> take(const char* name) {
+    if (next_ == columns_.size()) {
+      const Hdf5Extents extents =
+          width == 1 ? Hdf5Extents{rows_} : Hdf5Extents{rows_, width};
+      columns_.push_back({table_ + name, {}, width, file_.read<Number>(table_ + name, extents)});
+    }
+    const auto& values = std::get<std::vector<Number>>(columns_[next_++].values);
+    std::array<Number, width> row;
+    for (std::size_t n = 0; n < width; ++n) row[n] = values[row_ * width + n];
+    return row;
+  }
+
+  std::string table_;
+  std::uint64_t rows_;
+  const Hdf5Reader& file_;
+  std::vector<CheckpointColumn> columns_;
+  std::size_t row_{0};
+  std::size_t next_{0};
+};
+
+[[noreturn]] void refuse(const Hdf5Reader& file, std::string reason) {
+  throw Error{{.place = file.path().string(),
+               .problem = "this checkpoint contradicts itself",
+               .reason = std::move(reason),
+               .fix = "Resume from another one."}};
+}
+
+std::uint64_t rows_of(const Hdf5Reader& file, const std::string& column) {
+  const Hdf5Extents extents = file.extents(column);
+  return extents.empty() ? 0 : extents[0];
+}
+
+std::vector<NodeSpring> read_springs(const Hdf5Reader& file, const std::string& table) {
+  const std::uint64_t count = rows_of(file, table + "node");
+  Extractor from{table, count, file};
+  std::vector<NodeSpring> springs(count);
+  for (std::size_t row = 0; row < count; ++row) {
+    from.begin_row(row);
+    walk_spring(from, springs[row]);
+  }
+  return springs;
+}
+
+/// Reads a table of contacts; `make(row, springs)` makes one.
+template <class Make>
+void read_contacts(const Hdf5Reader& file, const std::string& table, std::uint64_t count,
+                   const std::string& spring_table, Make&& make) {
+  const auto first = file.read<std::uint64_t>(table + "first_spring", {count + 1});
+  const std::vector<NodeSpring> springs = read_springs(file, spring_table);
+  if (first.front() != 0 || first.back() != springs.size()) {
+    refuse(file, table + "first_spring does not cover the springs");
+  }
+  for (std::size_t row = 0; row < count; ++row) {
+    if (first[row] > first[row + 1] || first[row + 1] > springs.size()) {
+      refuse(file, table + "first_spring goes backwards");
+    }
+    const auto begin = springs.begin();
+    make(row, std::vector<NodeSpring>(begin + static_cast<std::ptrdiff_t>(first[row]),
+                                      begin + static_cast<std::ptrdiff_t>(first[row + 1])));
+  }
+}
+
+}  // namespace
+
+std::vector<CheckpointColumn> to_columns(const SimulationState& state) {
+  std::vector<CheckpointColumn> columns;
+  append_rows("/grain/", state.grains.size(), columns, [&](Appender& to, std::size_t row) {
+    walk_grain(to, row_or_blank(state.grains, row, GrainState{}));
+  });
+  const PairSprings no_pair;
+  append_rows("/pair/", state.pair_springs.size(), columns, [&](Appender& to, std::size_t row) {
+    const PairSprings& pair = row_or_blank(state.pair_springs, row, no_pair);
+    to.id("id_a", pair.id_a);
+    to.id("id_b", pair.id_b);
+  });
+  const FlatSprings of_pairs = flatten(state.pair_springs);
+  columns.push_back({"/pair/first_spring", "1", 1, of_pairs.first});
+  append_springs("/pair_spring/", of_pairs, columns);
+  const WallSprings no_contact;
+  append_rows("/wall_contact/", state.wall_springs.size(), columns,
+              [&](Appender& to, std::size_t row) {
+                const WallSprings& contact = row_or_blank(state.wall_springs, row, no_contact);
+                to.id("grain", contact.grain);
+                to.id("wall", contact.wall);
+              });
+  const FlatSprings of_walls = flatten(state.wall_springs);
+  columns.push_back({"/wall_contact/first_spring", "1", 1, of_walls.first});
+  append_springs("/wall_spring/", of_walls, columns);
+  return columns;
+}
+
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+  Hdf5Writer file{path, kind};
+  const auto one = [](auto value) { return std::vector<decltype(value)>{value}; };
+  file.write("/run/step", one(checkpoint.state.step), {1}, "1");
+  file.write("/run/time_step", one(checkpoint.time_step), {1}, "s");
+  file.write("/run/energy_at_start", one(checkpoint.energy_at_start), {1}, "J");
+  file.write("/run/shape_digest", checkpoint.shape_digests, {checkpoint.shape_digests.size()}, "1");
+  const std::vector<std::uint8_t> scene(checkpoint.scene.begin(), checkpoint.scene.end());
+  file.write("/run/scene", scene, {scene.size()}, "UTF-8");
+  for (const CheckpointColumn& column : to_columns(checkpoint.state)) {
+    std::visit(
+        [&](const auto& values) {
+          const std::uint64_t rows = values.size() / column.width;
+          file.write(column.name, values,
+                     column.width == 1 ? Hdf5Extents{rows} : Hdf5Extents{rows, column.width},
+                     column.unit);
+        },
+        column.values);
+  }
+  file.finish();
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& path) {
+  const Hdf5Reader file{path, kind};
+  Checkpoint checkpoint;
+  checkpoint.state.step = file.read<std::uint64_t>("/run/step", {1})[0];
+  checkpoint.time_step = file.read<double>("/run/time_step", {1})[0];
+  checkpoint.energy_at_start = file.read<double>("/run/energy_at_start", {1})[0];
+  checkpoint.shape_digests =
+      file.read<std::uint64_t>("/run/shape_digest", {rows_of(file, "/run/shape_digest")});
+  const auto scene = file.read<std::uint8_t>("/run/scene", {rows_of(file, "/run/scene")});
+  checkpoint.scene.assign(scene.begin(), scene.end());
+
+  SimulationState& state = checkpoint.state;
+  state.grains.resize(rows_of(file, "/grain/id"));
+  Extractor grains{"/grain/", state.grains.size(), file};
+  for (std::size_t row = 0; row < state.grains.size(); ++row) {
+    grains.begin_row(row);
+    walk_grain(grains, state.grains[row]);
+    if (state.grains[row].shape.get() >= checkpoint.shape_digests.size()) {
+      refuse(file, "a grain has a shape that is not in the library");
+    }
+  }
+  const std::uint64_t pairs = rows_of(file, "/pair/id_a");
+  const auto id_a = file.read<std::uint32_t>("/pair/id_a", {pairs});
+  const auto id_b = file.read<std::uint32_t>("/pair/id_b", {pairs});
+  read_contacts(file, "/pair/", pairs, "/pair_spring/",
+                [&](std::size_t row, std::vector<NodeSpring> springs) {
+                  state.pair_springs.push_back(
+                      {GrainId{id_a[row]}, GrainId{id_b[row]}, std::move(springs)});
+                });
+  const std::uint64_t contacts = rows_of(file, "/wall_contact/grain");
+  const auto grain = file.read<std::uint32_t>("/wall_contact/grain", {contacts});
+  const auto wall = file.read<std::uint32_t>("/wall_contact/wall", {contacts});
+  read_contacts(file, "/wall_contact/", contacts, "/wall_spring/",
+                [&](std::size_t row, std::vector<NodeSpring> springs) {
+                  state.wall_springs.push_back(
+                      {GrainId{grain[row]}, WallId{wall[row]}, std::move(springs)});
+                });
+  return checkpoint;
+}
+
+}  // namespace reckon

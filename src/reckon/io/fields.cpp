@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/io/fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+
+#include "reckon/avatar/surface_extraction.hpp"
+#include "reckon/core/vtk_xml.hpp"
+#include "reckon/math/rotation.hpp"
+
+namespace reckon {
+namespace {
+
+/// Places of grains in the order of their ids, so that files do not depend on slots.
+std::vector<std::size_t> slots_by_id(const Grains& grains) {
+  std::vector<std::size_t> slots(grains.size());
+  for (std::size_t slot = 0; slot < slots.size(); ++slot) slots[slot] = slot;
+  std::sort(slots.begin(), slots.end(),
+            [&](std::size_t a, std::size_t b) { return grains.id[a] < grains.id[b]; });
+  return slots;
+}
+
+}  // namespace
+
+void write_grain_points(const std::filesystem::path& path, const Simulation& simulation,
+                        std::span<const ContactRecord> contacts) {
+  const Grains& grains = simulation.grains();
+  std::vector<std::uint32_t> id;
+  std::vector<std::uint32_t> shape;
+  std::vector<std::uint8_t> prescribed;
+  std::vector<double> radius;
+  std::vector<double> equivalent_radius;
+  std::vector<double> mass;
+  std::vector<double> speed;
+  std::vector<Vec3> position;
+  std::vector<Quaternion> orientation;
+  std::vector<Vec3> velocity;
+  std::vector<Vec3> angular_velocity;
+  std::vector<std::size_t> row_of_id;
+  for (const std::size_t slot : slots_by_id(grains)) {
+    const ShapeView& form = simulation.shapes()[grains.shape[slot].get()];
+    row_of_id.resize(std::max<std::size_t>(row_of_id.size(), grains.id[slot].get() + 1U));
+    row_of_id[grains.id[slot].get()] = id.size();
+    id.push_back(grains.id[slot].get());
+    shape.push_back(grains.shape[slot].get());
+    prescribed.push_back(grains.prescribed[slot]);
+    radius.push_back(form.bounding_radius);
+    equivalent_radius.push_back(std::cbrt(0.75 / std::numbers::pi * form.mass.volume));
+    mass.push_back(simulation.mass(slot));
+    speed.push_back(norm(grains.velocity[slot]));
+    position.push_back(grains.position[slot]);
+    orientation.push_back(grains.orientation[slot]);
+    velocity.push_back(grains.velocity[slot]);
+    angular_velocity.push_back(rotation_matrix(grains.orientation[slot]) *
+                               grains.angular_velocity_body[slot]);
+  }
+  std::vector<std::uint32_t> touching(id.size(), 0);
+  std::vector<Vec3> contact_force(id.size());
+  for (const ContactRecord& contact : contacts) {
+    const std::size_t row = row_of_id[contact.grain.get()];
+    ++touching[row];
+    contact_force[row] += contact.force;
+    if (contact.with_wall) continue;
+    const std::size_t partner = row_of_id[contact.partner];
+    ++touching[partner];
+    contact_force[partner] -= contact.force;
+  }
+  VtkPolyData data;
+  data.points = vtk_array("Points", position);
+  data.vertices = consecutive_cells(id.size(), 1);
+  data.point_data = {vtk_array("id", id),
+                     vtk_array("shape", shape),
+                     vtk_array("radius", radius),
+                     vtk_array("equivalent_radius", equivalent_radius),
+                     vtk_array("mass", mass),
+                     vtk_array("orientation", orientation),
+                     vtk_array("velocity", velocity),
+                     vtk_array("angular_velocity", angular_velocity),
+                     vtk_array("speed", speed),
+                     vtk_array("prescribed", prescribed),
+                     vtk_array("contacts", touching),
+                     vtk_array("contact_force", contact_force)};
+  const std::vector<double> time{simulation.time()};
+  data.field_data = {vtk_array("TimeValue", time)};
+  write_vtp(path, data);
+}
+
+void write_contact_lines(const std::filesystem::path& path,
+                         std::span<const ContactRecord> contacts, double time) {
+  std::vector<Vec3> ends;
+  std::vector<Vec3> force;
+  std::vector<double> magnitude;
+  std::vector<double> deepest;
+  std::vector<std::uint32_t> grain;
+  std::vector<std::uint32_t> partner;
+  std::vector<std::uint32_t> nodes;
+  std::vector<std::uint8_t> with_wall;
+  for (const ContactRecord& contact : contacts) {
+    ends.push_back(contact.from);
+    ends.push_back(contact.to);
+    force.push_back(contact.force);
+    magnitude.push_back(norm(contact.force));
+    deepest.push_back(contact.deepest);
+    grain.push_back(contact.grain.get());
+    partner.push_back(contact.partner);
+    nodes.push_back(contact.touching);
+    with_wall.push_back(contact.with_wall ? 1 : 0);
+  }
+  VtkPolyData data;
+  data.points = vtk_array("Points", ends);
+  data.lines = consecutive_cells(contacts.size(), 2);
+  data.cell_data = {vtk_array("force", force),     vtk_array("force_magnitude", magnitude),
+                    vtk_array("grain", grain),     vtk_array("partner", partner),
+                    vtk_array("with_wall", with_wall), vtk_array("deepest", deepest),
+                    vtk_array("nodes", nodes)};
+  const std::vector<double> times{time};
+  data.field_data = {vtk_array("TimeValue", times)};
+  write_vtp(path, data);
+}
+
+void write_grain_surfaces(const std::filesystem::path& path, std::span<const GrainState> grains,
+                          std::span<const TriangleMesh> surfaces, double time) {
+  // Pictures do not need doubles, and these files are the largest of a run.
+  std::vector<float> points;
+  std::vector<std::uint32_t> id;
+  std::vector<std::uint32_t> shape;
+  std::vector<float> speed;
+  VtkPolyData data;
+  for (const GrainState& grain : grains) {
+    const TriangleMesh& surface = surfaces[grain.shape.get()];
+    const auto first = static_cast<std::int64_t>(points.size() / 3);
+    const Mat3 rotation = rotation_matrix(grain.orientation);
+    for (const Vec3& vertex : surface.vertices) {
+      const Vec3 place = grain.position + rotation * vertex;
+      for (int axis = 0; axis < 3; ++axis) points.push_back(static_cast<float>(place[axis]));
+    }
+    for (const TriangleMesh::Triangle& triangle : surface.triangles) {
+      for (const std::uint32_t corner : triangle) {
+        data.polygons.connectivity.push_back(first + corner);
+      }
+      data.polygons.offsets.push_back(
+          static_cast<std::int64_t>(data.polygons.connectivity.size()));
+    }
+    const std::size_t triangles = surface.triangles.size();
+    id.insert(id.end(), triangles, grain.id.get());
+    shape.insert(shape.end(), triangles, grain.shape.get());
+    speed.insert(speed.end(), triangles, static_cast<float>(norm(grain.velocity)));
+  }
+  data.points = vtk_array("Points", points, 3);
+  data.cell_data = {vtk_array("id", id), vtk_array("shape", shape), vtk_array("speed", speed)};
+  const std::vector<double> times{time};
+  data.field_data = {vtk_array("TimeValue", times)};
+  write_vtp(path, data);
+}
+
+std::vector<TriangleMesh> surface_meshes(std::span<const Shape> shapes) {
+  std::vector<TriangleMesh> meshes;
+  for (const Shape& shape : shapes) meshes.push_back(extract_surface(shape.level_set));
+  return meshes;
+}
+
+}  // namespace reckon

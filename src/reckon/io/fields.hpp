@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "reckon/avatar/triangle_mesh.hpp"
+#include "reckon/grains/grains.hpp"
+#include "reckon/shape/shape.hpp"
+#include "reckon/simulation/simulation.hpp"
+
+namespace reckon {
+
+/// Writes one point per grain, by id: `id`, `shape`, `radius` (of the bounding sphere),
+/// `equivalent_radius` (of the sphere of equal volume), `mass`, `orientation` (quaternion w, x, y,
+/// z, body to world), `velocity` and `angular_velocity` (world frame, half a step before),
+/// `speed`, `prescribed`, `contacts` (touching partners, walls included) and `contact_force` (net).
+void write_grain_points(const std::filesystem::path& path, const Simulation& simulation,
+                        std::span<const ContactRecord> contacts);
+
+/// Writes one line per touching pair from centre to centre, or from a grain's centre to its foot on
+/// a wall: `force` on the first grain, `force_magnitude`, `grain`, `partner` (grain id or wall
+/// number), `with_wall`, `deepest`, `nodes`.
+void write_contact_lines(const std::filesystem::path& path,
+                         std::span<const ContactRecord> contacts, double time);
+
+/// Writes the grains' true surfaces where the grains are, with `id`, `shape` and `speed` per
+/// triangle. `surfaces[shape]` are in the body frame.
+void write_grain_surfaces(const std::filesystem::path& path, std::span<const GrainState> grains,
+                          std::span<const TriangleMesh> surfaces, double time);
+
+/// The zero surface of every shape, for write_grain_surfaces.
+[[nodiscard]] std::vector<TriangleMesh> surface_meshes(std::span<const Shape> shapes);
+
+}  // namespace reckon

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reckon/boundary/wall.hpp"
+#include "reckon/simulation/measurement.hpp"
+
+namespace reckon {
+
+/// One column of history.csv, for the header and for the reference.
+struct HistoryColumn {
+  std::string name;  ///< with the unit at its end, e.g. "time_s"
+  std::string meaning;
+};
+
+/// The columns of a run: fixed ones, then three per wall.
+[[nodiscard]] std::vector<HistoryColumn> history_columns(std::span<const Wall> walls);
+
+/// One row, without the end of the line. Numbers are written so that they read back as the same
+/// bits. `energy_at_start` is EnergyBudget::total() at step 0 [J].
+[[nodiscard]] std::string history_row(const Measurement& measurement, double energy_at_start);
+
+/// history.csv of a run under way. Each row is handed to the system in one piece, so a killed run
+/// leaves whole rows.
+class HistoryFile {
+ public:
+  /// Starts a new file, or goes on with the one there: then rows for which `keep(step)` is false
+  /// are dropped first. Throws Error when the file cannot be written, or has another header.
+  HistoryFile(std::filesystem::path path, std::span<const Wall> walls,
+              const std::function<bool(std::uint64_t)>& keep = {});
+  ~HistoryFile();
+  HistoryFile(const HistoryFile&) = delete;
+  HistoryFile& operator=(const HistoryFile&) = delete;
+
+  void append(const Measurement& measurement, double energy_at_start);
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_{-1};
+};
+
+/// history.csv as text cells.
+struct HistoryTable {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// Reads history.csv; a last line without its end, as a power failure may leave it, is left out.
+/// Throws Error when the file cannot be read or a row has not as many cells as the header.
+[[nodiscard]] HistoryTable read_history(const std::filesystem::path& path);
+
+}  // namespace reckon

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reckon/core/id.hpp"
+#include "reckon/math/vec3.hpp"
+
+namespace reckon {
+
+/// Two grains that might touch before the list is made anew.
+struct Pair {
+  GrainId id_a;          ///< the lower id
+  GrainId id_b;          ///< the higher id
+  std::uint32_t slot_a;  ///< where `id_a` lives in this process
+  std::uint32_t slot_b;
+};
+
+/// All pairs whose bounding spheres come within `skin` of each other, sorted by (id_a, id_b).
+/// `ids`, `positions` and `radii` are per slot; found with LinkedBins in the time of one pass.
+[[nodiscard]] std::vector<Pair> find_pairs(std::span<const GrainId> ids,
+                                           std::span<const Vec3> positions,
+                                           std::span<const double> radii, double skin);
+
+/// The same by testing every grain against every other: the oracle.
+[[nodiscard]] std::vector<Pair> find_pairs_brute_force(std::span<const GrainId> ids,
+                                                       std::span<const Vec3> positions,
+                                                       std::span<const double> radii, double skin);
+
+/// For every grain, the pairs that it is part of, in the order of the partners' ids: the order in
+/// which its forces are summed.
+struct PairsOfGrain {
+  struct Entry {
+    std::uint32_t pair;
+    bool is_a;  ///< whether the grain is the pair's `a`
+  };
+  std::vector<std::uint32_t> first;  ///< per slot, and one past the end
+  std::vector<Entry> entries;
+
+  [[nodiscard]] std::span<const Entry> of(std::size_t slot) const {
+    return std::span{entries}.subspan(first[slot], first[slot + 1] - first[slot]);
+  }
+};
+
+/// `pairs` sorted as find_pairs returns them; `slot_count` grains.
+[[nodiscard]] PairsOfGrain index_pairs(std::span<const Pair> pairs, std::size_t slot_count);
+
+}  // namespace reckon

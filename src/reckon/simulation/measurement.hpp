@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "reckon/math/vec3.hpp"
+
+namespace reckon {
+
+/// Energies at one step. Stored parts first, then what left or came in since the run began.
+struct EnergyBudget {
+  double translation{0};  ///< kinetic [J]
+  double rotation{0};     ///< kinetic [J]
+  double gravity{0};      ///< potential, zero at the origin [J]
+  double elastic{0};      ///< in the contacts' springs [J]
+  double friction{0};     ///< lost to sliding [J]
+  double dashpot{0};      ///< lost to contact dashpots [J]
+  double damping{0};      ///< lost to global damping [J]
+  double body_work{0};    ///< come in through body forces other than gravity [J]
+  double wall_work{0};    ///< come in through moving walls and prescribed grains [J]
+
+  /// Stored plus lost minus come in: constant, up to the error of the time stepping [J].
+  [[nodiscard]] double total() const {
+    return translation + rotation + gravity + elastic + friction + dashpot + damping - body_work -
+           wall_work;
+  }
+  friend bool operator==(const EnergyBudget&, const EnergyBudget&) = default;
+};
+
+/// What a run says of itself at one step. All sums are exact before their one rounding, so they do
+/// not depend on the number of threads or ranks.
+struct Measurement {
+  std::uint64_t step{0};
+  double time{0};  ///< [s]
+  EnergyBudget energy;
+  std::uint64_t contacts{0};       ///< touching pairs of grains
+  std::uint64_t wall_contacts{0};  ///< touching pairs of grain and wall
+  std::uint64_t touching_nodes{0};
+  double coordination{0};        ///< contacts per grain, walls included
+  double unbalanced_ratio{0};    ///< mean net force on a grain / mean contact force
+  double deepest_overlap{0};     ///< [m]
+  double largest_speed{0};       ///< [m/s]
+  Vec3 momentum;                 ///< [kg m/s]
+  std::vector<Vec3> wall_force;  ///< of the grains on each wall [N]
+
+  friend bool operator==(const Measurement&, const Measurement&) = default;
+};
+
+}  // namespace reckon

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/simulation/setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace reckon {
+namespace {
+
+AnyContactLaw make_law(const ContactConfig& contact, double normal_stiffness,
+                       double shear_stiffness, bool dashpot) {
+  const bool damped = dashpot && contact.restitution.has_value();
+  if (contact.law == ContactLawKind::linear) {
+    return LinearLaw{normal_stiffness, shear_stiffness,
+                     damped ? linear_dashpot_factor(*contact.restitution) : 0,
+                     contact.node_cap.value_or(0)};
+  }
+  return AreaLaw{normal_stiffness, shear_stiffness,
+                 damped ? area_dashpot_factor(*contact.restitution) : 0,
+                 dashpot ? contact.viscosity : 0};
+}
+
+/// A wall's surfaces and what to add to its name: a box has several.
+std::vector<std::pair<std::string, WallSurface>> surfaces(const WallConfig& wall) {
+  if (const auto* plane = std::get_if<PlaneConfig>(&wall.geometry)) {
+    return {{"", PlaneSurface{plane->point, normalized(plane->normal)}}};
+  }
+  if (const auto* cylinder = std::get_if<CylinderConfig>(&wall.geometry)) {
+    return {{"", CylinderSurface{cylinder->point, normalized(cylinder->axis), cylinder->radius}}};
+  }
+  const auto& box = std::get<BoxConfig>(wall.geometry);
+  std::vector<std::pair<std::string, WallSurface>> sides{
+      {".x-", PlaneSurface{box.low, {1, 0, 0}}},
+      {".x+", PlaneSurface{box.high, {-1, 0, 0}}},
+      {".y-", PlaneSurface{box.low, {0, 1, 0}}},
+      {".y+", PlaneSurface{box.high, {0, -1, 0}}},
+      {".z-", PlaneSurface{box.low, {0, 0, 1}}}};
+  if (!box.open_top) sides.emplace_back(".z+", PlaneSurface{box.high, Vec3{0, 0, -1}});
+  return sides;
+}
+
+std::vector<Wall> make_walls(const SceneConfig& scene) {
+  std::vector<Wall> walls;
+  for (const WallConfig& config : scene.walls) {
+    const AnyContactLaw law =
+        make_law(scene.contact, config.normal_stiffness.value_or(scene.contact.normal_stiffness),
+                 config.shear_stiffness.value_or(scene.contact.shear_stiffness), config.dashpot);
+    for (const auto& [suffix, surface] : surfaces(config)) {
+      walls.push_back({config.name + suffix, surface, law,
+                       config.friction.value_or(scene.material.friction), config.shortened_lever,
+                       config.motion});
+    }
+  }
+  return walls;
+}
+
+}  // namespace
+
+PreparedScene prepare(const LoadedScene& scene) {
+  const SceneConfig& config = scene.config;
+  PreparedScene prepared;
+  prepared.time_step = choose_time_step(config, scene.grains, *scene.shapes);
+  double smallest_radius = std::numeric_limits<double>::infinity();
+  for (const Shape& shape : *scene.shapes) {
+    smallest_radius = std::min(smallest_radius, shape.bounding_radius);
+  }
+  prepared.setup = {
+      .shapes = scene.shapes,
+      .density = config.material.density,
+      .contact = {make_law(config.contact, config.contact.normal_stiffness,
+                           config.contact.shear_stiffness, true),
+                  config.material.friction, config.contact.master},
+      .walls = make_walls(config),
+      .body_force = {config.body.gravity, config.body.random_acceleration,
+                     config.body.random_interval, config.seed, scene.own_accelerations},
+      .damping = config.body.damping,
+      .time_step = prepared.time_step.step,
+      .skin = config.neighbor.skin * smallest_radius,
+  };
+  prepared.initial.grains = scene.grains;
+  prepared.steps = config.time.steps.value_or(static_cast<std::uint64_t>(
+      std::ceil(config.time.duration.value_or(0) / prepared.time_step.step * (1 - 1e-12))));
+  return prepared;
+}
+
+}  // namespace reckon

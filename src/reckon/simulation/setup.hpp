@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "reckon/simulation/config.hpp"
+#include "reckon/simulation/simulation.hpp"
+#include "reckon/simulation/time_step.hpp"
+
+namespace reckon {
+
+/// A scene with everything that its files hold: what io hands over.
+struct LoadedScene {
+  SceneConfig config;
+  std::shared_ptr<const ShapeLibrary> shapes;  ///< of all [[grains]] tables, one after another
+  std::vector<GrainState> grains;              ///< as placed, sorted by id, at rest or as set
+  std::vector<Vec3> own_accelerations;         ///< by grain id; empty: none [m/s^2]
+};
+
+/// A scene made ready to run.
+struct PreparedScene {
+  SimulationSetup setup;
+  SimulationState initial;
+  TimeStepChoice time_step;
+  std::uint64_t steps{0};  ///< how many to run from the start
+};
+
+/// Turns config into walls, laws and a time step. `scene.config` is already validated.
+[[nodiscard]] PreparedScene prepare(const LoadedScene& scene);
+
+}  // namespace reckon

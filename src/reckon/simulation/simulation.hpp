@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "reckon/boundary/wall_contacts.hpp"
+#include "reckon/contact/grain_contacts.hpp"
+#include "reckon/grains/grain_frame.hpp"
+#include "reckon/motion/body_force.hpp"
+#include "reckon/motion/integrator.hpp"
+#include "reckon/simulation/measurement.hpp"
+
+namespace reckon {
+
+/// What stays the same from the first step to the last.
+struct SimulationSetup {
+  std::shared_ptr<const ShapeLibrary> shapes;
+  double density{0};  ///< [kg/m^3]
+  ContactSettings contact;
+  std::vector<Wall> walls;
+  BodyForce body_force;
+  double damping{0};    ///< global damping xi [1/s]
+  double time_step{0};  ///< [s]
+  double skin{0};       ///< of the pair lists; changes the speed, never the answer [m]
+};
+
+/// What changes: all that a checkpoint must hold to go on to the same bits.
+struct SimulationState {
+  std::uint64_t step{0};
+  std::vector<GrainState> grains;         ///< sorted by id
+  std::vector<PairSprings> pair_springs;  ///< sorted by ids
+  std::vector<WallSprings> wall_springs;  ///< sorted by grain, then wall
+};
+
+/// One pair of touching grains, or a grain and a wall, as output shows it.
+struct ContactRecord {
+  GrainId grain;
+  bool with_wall{false};
+  std::uint32_t partner{0};  ///< the other grain's id, or the wall's place in the scene
+  Vec3 from;                 ///< the grain's centre [m]
+  Vec3 to;            ///< the partner's centre, or the foot of the grain's centre on the wall
+  Vec3 force;         ///< on `grain` [N]
+  double deepest{0};  ///< largest penetration of a node [m]
+  std::uint32_t touching{0};  ///< nodes
+};
+
+/// The level-set discrete element method. `step()` is the paper's algorithm on one screen.
+class Simulation {
+ public:
+  Simulation(SimulationSetup setup, const SimulationState& state);
+
+  /// Moves everything on by one time step. Throws Error, naming the grain, when a grain's motion is
+  /// no longer a number.
+  void step();
+
+  /// What holds at the current step. Changes nothing.
+  [[nodiscard]] Measurement measure();
+  /// The contacts at the current step, pairs sorted by ids, then walls. Changes nothing.
+  [[nodiscard]] std::vector<ContactRecord> contacts();
+  [[nodiscard]] SimulationState state() const;
+
+  [[nodiscard]] const SimulationSetup& setup() const { return setup_; }
+  [[nodiscard]] const Grains& grains() const { return grains_; }
+  [[nodiscard]] std::span<const ShapeView> shapes() const { return shapes_; }
+  [[nodiscard]] std::uint64_t step_number() const { return step_; }
+  [[nodiscard]] double time() const { return static_cast<double>(step_) * setup_.time_step; }
+  [[nodiscard]] std::uint64_t list_rebuilds() const { return list_rebuilds_; }
+  [[nodiscard]] const GrainContacts& grain_contacts() const { return grain_contacts_; }
+  [[nodiscard]] const WallContacts& wall_contacts() const { return wall_contacts_; }
+  [[nodiscard]] double mass(std::size_t slot) const { return inertia(slot).mass; }
+
+ private:
+  void place_frames();
+  [[nodiscard]] bool lists_are_stale() const;
+  void rebuild_lists();
+  void evaluate_contacts();
+  void sum_loads(std::span<EnergyLedger> ledgers);
+  void advance_grains();
+  void commit_springs();
+
+  void refresh_contacts();
+  [[nodiscard]] Inertia inertia(std::size_t slot) const;
+  [[nodiscard]] Load total_load(std::size_t slot) const;
+  void require_finite_motion() const;
+
+  SimulationSetup setup_;
+  std::vector<ShapeView> shapes_;  // views into setup_.shapes
+  Grains grains_;
+  std::vector<GrainFrame> frames_;
+  std::vector<Load> contact_loads_;
+  GrainContacts grain_contacts_;
+  WallContacts wall_contacts_;
+  std::uint64_t step_{0};
+
+  std::vector<Vec3> listed_positions_;  // where grains were when the lists were made
+  std::vector<Vec3> listed_wall_displacement_;
+  bool lists_exist_{false};
+  std::uint64_t list_rebuilds_{0};
+};
+
+}  // namespace reckon

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/simulation/time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reckon/core/exact_sum.hpp"
+
+namespace reckon {
+namespace {
+
+constexpr double touching_share = 0.05;  // of a grain's surface or nodes
+
+double contact_stiffness(const ContactConfig& contact, double normal_stiffness,
+                         const Shape& shape) {
+  if (contact.law == ContactLawKind::area) {
+    return normal_stiffness * touching_share * exact_sum(shape.nodes.area);
+  }
+  const double nodes = contact.node_cap ? static_cast<double>(*contact.node_cap)
+                                        : touching_share * static_cast<double>(shape.nodes.size());
+  return normal_stiffness * std::max(nodes, 1.0);
+}
+
+}  // namespace
+
+TimeStepChoice choose_time_step(const SceneConfig& scene, std::span<const GrainState> grains,
+                                std::span<const Shape> shapes) {
+  double normal_stiffness = scene.contact.normal_stiffness;
+  for (const WallConfig& wall : scene.walls) {
+    normal_stiffness = std::max(normal_stiffness, wall.normal_stiffness.value_or(0));
+  }
+  std::vector<double> stiffness;
+  for (const Shape& shape : shapes) {
+    stiffness.push_back(contact_stiffness(scene.contact, normal_stiffness, shape));
+  }
+  TimeStepChoice choice;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const GrainState& grain : grains) {
+    if (grain.prescribed) continue;
+    const std::size_t s = grain.shape.get();
+    const double mass = scene.material.density * shapes[s].mass.volume;
+    if (mass / stiffness[s] < slowest) {
+      slowest = mass / stiffness[s];
+      choice.limiting = grain.id;
+      choice.mass = mass;
+      choice.stiffness = stiffness[s];
+    }
+  }
+  choice.rule_step = scene.time.step_fraction * std::sqrt(slowest);
+  choice.given = scene.time.step.has_value();
+  choice.step = scene.time.step.value_or(choice.rule_step);
+  return choice;
+}
+
+}  // namespace reckon

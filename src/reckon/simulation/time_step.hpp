@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "reckon/core/id.hpp"
+#include "reckon/grains/grains.hpp"
+#include "reckon/shape/shape.hpp"
+#include "reckon/simulation/config.hpp"
+
+namespace reckon {
+
+/// A time step and what decided it.
+struct TimeStepChoice {
+  double step{0};       ///< [s]
+  bool given{false};    ///< true: the scene says so; the rest tells what the rule would look at
+  GrainId limiting;     ///< the grain with the smallest sqrt(m / k)
+  double mass{0};       ///< its mass [kg]
+  double stiffness{0};  ///< the stiffness that its contacts may reach [N/m]
+  double rule_step{0};  ///< step_fraction * sqrt(mass / stiffness) [s]
+};
+
+/// step_fraction * sqrt(m / k), the smallest over all grains, with k the stiffness that a contact
+/// really has. Law `area`: k_n times a twentieth of the surface, as a sphere has that overlaps by a
+/// tenth of its radius. Law `linear`: k_n times node_cap, or without a cap times a twentieth of the
+/// nodes. Walls count with their own stiffness.
+[[nodiscard]] TimeStepChoice choose_time_step(const SceneConfig& scene,
+                                              std::span<const GrainState> grains,
+                                              std::span<const Shape> shapes);
+
+}  // namespace reckon

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "target.hpp"
+
+namespace reckon::fuzz {
+
+[[nodiscard]] Target scene_target();
+[[nodiscard]] Target spherical_harmonics_target();
+
+}  // namespace reckon::fuzz
