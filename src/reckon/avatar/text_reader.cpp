@@ -4,7 +4,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -12,8 +11,6 @@
 
 namespace reckon {
 namespace {
-
-constexpr std::uintmax_t largest_file = std::uintmax_t{4} << 30;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\0'; }
 
@@ -24,38 +21,6 @@ std::string_view without_plus(std::string_view token) {
 }
 
 }  // namespace
-
-std::string read_file(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw Error{{.place = name, .problem = "is a folder", .reason = "", .fix = "Name a file."}};
-  }
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) {
-    throw Error{{.place = name,
-                 .problem = "cannot be opened",
-                 .reason = error.message(),
-                 .fix = "Check the path and its permissions."}};
-  }
-  if (size > largest_file) {
-    throw Error{{.place = name,
-                 .problem = "is too large",
-                 .reason = std::to_string(size) + " bytes, the limit is 4 GiB",
-                 .fix = "Simplify the mesh or split the file."}};
-  }
-  std::ifstream file{path, std::ios::binary};
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!file || file.gcount() != static_cast<std::streamsize>(size)) {
-    throw Error{{.place = name,
-                 .problem = "cannot be read",
-                 .reason = "got " + std::to_string(file.gcount()) + " of " + std::to_string(size) +
-                           " bytes",
-                 .fix = "Check the disk and the file's permissions."}};
-  }
-  return bytes;
-}
 
 bool TextReader::next_line() {
   if (rest_.empty()) {

@@ -3,14 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
-namespace reckon {
+#include "reckon/core/file.hpp"  // read_file, which most users of a reader need
 
-/// The bytes of a file. Throws Error when it cannot be read, is a folder, or is larger than 4 GiB.
-[[nodiscard]] std::string read_file(const std::filesystem::path& path);
+namespace reckon {
 
 /// Walks through a text line by line and token by token, and knows where it is, so that every
 /// complaint names file and line. Tokens are separated by blanks; \n, \r\n and \r end lines.
