@@ -5,6 +5,8 @@
 
 namespace reckon::fuzz {
 
-std::vector<Target> all_targets() { return {scene_target(), spherical_harmonics_target()}; }
+std::vector<Target> all_targets() {
+  return {scene_target(), stl_target(), obj_target(), ply_target(), spherical_harmonics_target()};
+}
 
 }  // namespace reckon::fuzz

@@ -7,6 +7,9 @@
 namespace reckon::fuzz {
 
 [[nodiscard]] Target scene_target();
+[[nodiscard]] Target stl_target();
+[[nodiscard]] Target obj_target();
+[[nodiscard]] Target ply_target();
 [[nodiscard]] Target spherical_harmonics_target();
 
 }  // namespace reckon::fuzz
