@@ -17,7 +17,8 @@ target_compile_options(reckon_flags INTERFACE -ffp-contract=off -fno-math-errno)
 
 target_compile_options(reckon_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
-  -Woverloaded-virtual -Wold-style-cast)
+  -Woverloaded-virtual -Wold-style-cast
+  -Wno-missing-field-initializers)  # left-out designated initialisers take the stated defaults
 if(RECKON_WARNINGS_AS_ERRORS)
   target_compile_options(reckon_flags INTERFACE -Werror)
 endif()

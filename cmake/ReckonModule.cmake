@@ -19,13 +19,27 @@ function(reckon_module name)
 endfunction()
 
 # reckon_test(<name> SOURCES ... DEPENDS ... [LABELS ...])
-#   One GoogleTest executable; every TEST in it becomes a ctest entry.
+#   One GoogleTest executable; every TEST in it becomes a ctest entry. Labels, which ./check goes by:
+#   slow     over about ten seconds: not under the sanitizers
+#   long     many minutes: only in ./check --long
+#   threads  exercises threads: also runs under the thread sanitizer
 function(reckon_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
   include(GoogleTest)
   add_executable(test_${name} ${arg_SOURCES})
+  target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_link_libraries(test_${name} PRIVATE reckon_flags ${arg_DEPENDS} GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE RECKON_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  list(JOIN arg_LABELS "," labels)  # one label; ctest -L finds its parts, being a search
+  if(labels)
+    set(labels LABELS "${labels}")
+  endif()
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${arg_LABELS}")
+    PROPERTIES ${labels} ENVIRONMENT "OMP_WAIT_POLICY=passive")  # tests share the cores
+  if(threads IN_LIST arg_LABELS)
+    if(NOT TARGET threaded_tests)
+      add_custom_target(threaded_tests)
+    endif()
+    add_dependencies(threaded_tests test_${name})
+  endif()
 endfunction()

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "reckon/math/turns.hpp"
+#include "reckon/math/portable.hpp"
 
 namespace reckon {
 
 Vec3 WallMotion::displacement(double time) const {
   double moving = std::max(time - start, 0.0);
   if (stop) moving = std::min(moving, std::max(*stop - start, 0.0));
-  return velocity * moving + amplitude * sine_of_turns(frequency * moving);
+  return velocity * moving + amplitude * portable::cos_sin_of_turns(frequency * moving).sin;
 }
 
 WallPose pose_at(const Wall& wall, std::uint64_t step, double time_step) {

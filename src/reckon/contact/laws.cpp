@@ -5,6 +5,7 @@
 
 #include "reckon/contact/area_law.hpp"
 #include "reckon/contact/linear_law.hpp"
+#include "reckon/math/portable.hpp"
 
 namespace reckon {
 namespace {
@@ -34,7 +35,7 @@ double rebound(double alpha) {
 }  // namespace
 
 double linear_dashpot_factor(double restitution) {
-  const double log_e = std::log(restitution);
+  const double log_e = portable::log(restitution);
   return -2 * log_e / std::sqrt(std::numbers::pi * std::numbers::pi + log_e * log_e);
 }
 

@@ -57,12 +57,16 @@ struct Quaternion {
   const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return {q.w / length, q.x / length, q.y / length, q.z / length};
 }
-/// The matrix R with world = R * body.
+/// The matrix R with world = R * body, in its homogeneous form: a quaternion of norm s gives s^2 R.
+/// (Input files give quaternions with few digits; their first step takes them as they stand.)
 [[nodiscard]] constexpr Mat3 rotation_matrix(const Quaternion& q) {
-  return {
-      {1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y - q.w * q.z), 2 * (q.x * q.z + q.w * q.y)},
-      {2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z - q.w * q.x)},
-      {2 * (q.x * q.z - q.w * q.y), 2 * (q.y * q.z + q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y)}};
+  const double ww = q.w * q.w;
+  const double xx = q.x * q.x;
+  const double yy = q.y * q.y;
+  const double zz = q.z * q.z;
+  return {{ww + xx - yy - zz, 2 * (q.x * q.y - q.w * q.z), 2 * (q.x * q.z + q.w * q.y)},
+          {2 * (q.x * q.y + q.w * q.z), ww - xx + yy - zz, 2 * (q.y * q.z - q.w * q.x)},
+          {2 * (q.x * q.z - q.w * q.y), 2 * (q.y * q.z + q.w * q.x), ww - xx - yy + zz}};
 }
 
 /// The rotation matrix `m` as a unit quaternion with w >= 0 (Shepperd 1978: the largest of the

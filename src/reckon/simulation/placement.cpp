@@ -9,7 +9,7 @@
 
 #include "reckon/core/error.hpp"
 #include "reckon/core/random.hpp"
-#include "reckon/math/turns.hpp"
+#include "reckon/math/portable.hpp"
 
 namespace reckon {
 namespace {
@@ -48,12 +48,11 @@ GridFrame frame_of(const FillPlacement& fill) {
 Quaternion random_orientation(std::uint64_t seed, GrainId grain) {
   RandomStream stream{seed, RandomPurpose::orientation, grain.get()};
   const double share = stream.uniform();
-  const double first = stream.uniform();
-  const double second = stream.uniform();
+  const auto first = portable::cos_sin_of_turns(stream.uniform());
+  const auto second = portable::cos_sin_of_turns(stream.uniform());
   const double a = std::sqrt(1 - share);
   const double b = std::sqrt(share);
-  return normalized(Quaternion{b * sine_of_turns(second + 0.25), a * sine_of_turns(first),
-                               a * sine_of_turns(first + 0.25), b * sine_of_turns(second)});
+  return normalized(Quaternion{b * second.cos, a * first.sin, a * first.cos, b * second.sin});
 }
 
 std::vector<GrainState> fill_region(const FillPlacement& fill, std::span<const Shape> shapes,

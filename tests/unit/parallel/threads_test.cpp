@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/parallel/threads.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace reckon {
+namespace {
+
+class ThreadLoop : public testing::TestWithParam<int> {
+ protected:
+  void SetUp() override { set_thread_count(GetParam()); }
+  void TearDown() override { set_thread_count(before_); }
+
+ private:
+  int before_{thread_count()};
+};
+
+TEST_P(ThreadLoop, VisitsEveryIndexOnce) {
+  for (const std::size_t count : {0U, 1U, 7U, 1000U}) {
+    for (const std::size_t chunk : {1U, 3U, 64U}) {
+      std::vector<int> visits(count);
+      parallel_for(count, chunk, [&](std::size_t k) { ++visits[k]; });
+      EXPECT_EQ(visits, std::vector<int>(count, 1)) << count << " indices by " << chunk;
+    }
+  }
+}
+
+TEST_P(ThreadLoop, ThreadIndexStaysBelowThreadCount) {
+  std::vector<int> index(500, -1);
+  parallel_for(index.size(), 1, [&](std::size_t k) { index[k] = thread_index(); });
+  for (const int thread : index) {
+    EXPECT_GE(thread, 0);
+    EXPECT_LT(thread, GetParam());
+  }
+}
+
+TEST_P(ThreadLoop, ThrowsTheErrorOfTheLowestIndex) {
+  for (int trial = 0; trial < 20; ++trial) {
+    std::string caught;
+    try {
+      parallel_for(200, 1, [](std::size_t k) {
+        if (k % 10 == 7) throw std::runtime_error("at " + std::to_string(k));
+      });
+    } catch (const std::runtime_error& error) {
+      caught = error.what();
+    }
+    EXPECT_EQ(caught, "at 7");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Counts, ThreadLoop, testing::Values(1, 2, 4));
+
+}  // namespace
+}  // namespace reckon
