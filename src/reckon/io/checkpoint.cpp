@@ -263,6 +263,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
   file.write("/run/time_step", one(checkpoint.time_step), {1}, "s");
   file.write("/run/energy_at_start", one(checkpoint.energy_at_start), {1}, "J");
   file.write("/run/shape_digest", checkpoint.shape_digests, {checkpoint.shape_digests.size()}, "1");
+  file.write("/run/acceleration_digest", one(checkpoint.acceleration_digest), {1}, "1");
   const std::vector<std::uint8_t> scene(checkpoint.scene.begin(), checkpoint.scene.end());
   file.write("/run/scene", scene, {scene.size()}, "UTF-8");
   for (const CheckpointColumn& column : to_columns(checkpoint.state)) {
@@ -286,6 +287,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
   checkpoint.energy_at_start = file.read<double>("/run/energy_at_start", {1})[0];
   checkpoint.shape_digests =
       file.read<std::uint64_t>("/run/shape_digest", {rows_of(file, "/run/shape_digest")});
+  checkpoint.acceleration_digest = file.read<std::uint64_t>("/run/acceleration_digest", {1})[0];
   const auto scene = file.read<std::uint8_t>("/run/scene", {rows_of(file, "/run/scene")});
   checkpoint.scene.assign(scene.begin(), scene.end());
 

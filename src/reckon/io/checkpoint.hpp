@@ -19,6 +19,7 @@ struct Checkpoint {
   double energy_at_start{0};        ///< EnergyBudget::total() at step 0 [J]
   std::string scene;                ///< as write_scene gives it
   std::vector<std::uint64_t> shape_digests;  ///< of the library, see avatar/library_file.hpp
+  std::uint64_t acceleration_digest{0};      ///< of the grains' own accelerations
 };
 
 /// One dataset of a checkpoint: rows of `width` numbers each.
@@ -36,7 +37,7 @@ struct CheckpointColumn {
 
 /// Writes a sealed HDF5 file (core/hdf5_file.hpp). Equal checkpoints give equal files.
 ///
-///   /run/{step, time_step, energy_at_start, shape_digest, scene}
+///   /run/{step, time_step, energy_at_start, shape_digest, acceleration_digest, scene}
 ///   /grain/{id, shape, prescribed, position, orientation, ...}     one row per grain, by id
 ///   /pair/{id_a, id_b, first_spring}        one row per touching pair; its springs begin there
 ///   /pair_spring/{node, master_is_b, shear_force, normal}

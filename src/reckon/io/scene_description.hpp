@@ -34,6 +34,7 @@ struct SceneKey {
   std::string_view unit{};
   Range range{};
   bool required{false};
+  bool folder_allowed{false};    ///< for file: whether a folder will do
   std::string_view standard{};   ///< in words, where the config's default says too little
   std::string_view unit_note{};  ///< for the reference, where the unit depends on another key
   std::string_view meaning;
@@ -291,14 +292,17 @@ void describe(Visitor& v, ExplicitGrain& grain) {
             .unit = "rad/s",
             .meaning = "Initial angular velocity in the world frame."},
            grain.angular_velocity);
-  v.flag({.name = "fixed", .meaning = "The grain never moves."}, grain.fixed);
+  v.flag({.name = "fixed",
+          .meaning = "The grain keeps its velocities whatever the forces: it stands still when they "
+                     "are zero."},
+         grain.fixed);
 }
 
 template <class Visitor>
 void describe(Visitor& v, LegacyPlacement& files) {
   v.file({.name = "positions",
           .required = true,
-          .meaning = "Text file, a line `x y z` per grain [m]."},
+          .meaning = "Text file, a line `x y z` per grain, in voxels."},
          files.positions_file);
   v.file({.name = "rotations",
           .required = true,
@@ -311,8 +315,15 @@ template <class Visitor>
 void describe(Visitor& v, GrainsConfig& grains) {
   v.file({.name = "library",
           .required = true,
-          .meaning = "Shape library, as made by `reckon grains`."},
+          .folder_allowed = true,
+          .meaning = "Shape library, as made by `reckon grains`, or a folder of legacy LS-DEM "
+                     "morphology files."},
          grains.library);
+  v.number({.name = "voxel",
+            .unit = "m",
+            .range = above(0),
+            .meaning = "Length of a voxel: the unit of legacy morphology and position files."},
+           grains.voxel);
   v.one_of(Presence::exactly_one, {"fill", "place", "files"}, grains.placement.index(),
            [&](std::size_t which) {
              if (which == 0) {

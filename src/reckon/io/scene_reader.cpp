@@ -129,6 +129,10 @@ class Reader {
                    "Paths are relative to the folder of the scene.");
     }
     if (std::filesystem::is_directory(path, code)) {
+      if (key.folder_allowed) {
+        value = path.lexically_normal().string();
+        return;
+      }
       return fault(key, node, fmt::format("\"{}\" is a folder, not a file", path.string()));
     }
     if (!std::ifstream{path}) {

@@ -94,7 +94,7 @@ struct ExplicitGrain {
   std::vector<double> orientation{1, 0, 0, 0};  ///< quaternion w, x, y, z
   Vec3 velocity;                                ///< [m/s]
   Vec3 angular_velocity;                        ///< world frame [rad/s]
-  bool fixed{false};                            ///< never moves
+  bool fixed{false};                            ///< keeps its velocities whatever the forces
 };
 /// Positions and rotations in the legacy text files; shapes are taken in turn.
 struct LegacyPlacement {
@@ -103,7 +103,8 @@ struct LegacyPlacement {
 };
 
 struct GrainsConfig {
-  std::string library;  ///< shape library file
+  std::string library;  ///< shape library file, or a folder of legacy morphology files
+  double voxel{1};      ///< edge of a voxel, the unit of length of legacy files [m]
   std::variant<FillPlacement, std::vector<ExplicitGrain>, LegacyPlacement> placement;
 };
 

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace reckon {
+
+/// "640 B", "12.3 MB"; powers of 1000.
+[[nodiscard]] std::string human_bytes(std::uint64_t bytes);
+/// "0.42 s", "3 min 20 s", "2 h 05 min", "3 d 04 h".
+[[nodiscard]] std::string human_duration(double seconds);
+/// "12,345,678"
+[[nodiscard]] std::string human_count(std::uint64_t count);
+
+}  // namespace reckon

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reckon {
+
+/// The names in a run's folder. docs/reference/run-folder.md says what each file holds.
+///
+///   scene.toml            the scene as given, to the letter
+///   scene_resolved.toml   the same with every default and the time step filled in
+///   history.csv           tables over time
+///   grains.pvd contacts.pvd surfaces.pvd        ParaView: open these
+///   fields/grains_0000001000.vtp ...            what they list
+///   checkpoints/step_0000001000.h5 ...
+///   run.json run.log      what ran, where, how long
+class RunFolder {
+ public:
+  explicit RunFolder(std::filesystem::path root) : root_{std::move(root)} {}
+
+  [[nodiscard]] const std::filesystem::path& root() const { return root_; }
+  [[nodiscard]] std::filesystem::path scene() const { return root_ / "scene.toml"; }
+  [[nodiscard]] std::filesystem::path resolved() const { return root_ / "scene_resolved.toml"; }
+  [[nodiscard]] std::filesystem::path history() const { return root_ / "history.csv"; }
+  [[nodiscard]] std::filesystem::path log() const { return root_ / "run.log"; }
+  [[nodiscard]] std::filesystem::path json() const { return root_ / "run.json"; }
+  [[nodiscard]] std::filesystem::path index(std::string_view kind) const;
+  /// `kind` is grains, contacts or surfaces; the name is relative to the root.
+  [[nodiscard]] static std::string field_name(std::string_view kind, std::uint64_t step);
+  [[nodiscard]] std::filesystem::path checkpoint(std::uint64_t step) const;
+
+  /// Steps of all checkpoints by name, ascending.
+  [[nodiscard]] std::vector<std::uint64_t> checkpoint_steps() const;
+  /// Steps of all field files of a kind, ascending.
+  [[nodiscard]] std::vector<std::uint64_t> field_steps(std::string_view kind) const;
+
+  [[nodiscard]] bool exists() const { return std::filesystem::exists(root_); }
+  /// Whether it holds anything at all.
+  [[nodiscard]] bool has_content() const;
+  /// Whether a run was begun in it.
+  [[nodiscard]] bool holds_run() const;
+
+  /// Makes the folder and its subfolders.
+  void create() const;
+  /// Removes the files of a run, and nothing else.
+  void remove_run() const;
+
+ private:
+  std::filesystem::path root_;
+};
+
+/// Holds a folder for one process; another that tries gets an Error. Ends with the process, so a
+/// crash leaves nothing locked.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_{-1};
+};
+
+}  // namespace reckon

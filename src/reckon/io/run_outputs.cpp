@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/io/run_outputs.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <utility>
+
+#include "reckon/io/fields.hpp"
+
+namespace reckon {
+namespace {
+
+/// Whether a run without a break would have written something at `step` by the time it is at
+/// `resumed_at`.
+bool belongs(std::uint64_t step, std::uint64_t interval, std::uint64_t resumed_at) {
+  return step <= resumed_at && (step == 0 || is_due(step, interval));
+}
+
+std::function<bool(std::uint64_t)> rows_to_keep(const OutputConfig& config,
+                                                std::optional<std::uint64_t> resumed_at) {
+  if (!resumed_at) return {};
+  return [interval = config.history_interval, at = *resumed_at](std::uint64_t step) {
+    return belongs(step, interval, at);
+  };
+}
+
+}  // namespace
+
+RunOutputs::RunOutputs(RunFolder folder, const OutputConfig& config, const SimulationSetup& setup,
+                       std::optional<std::uint64_t> resumed_at)
+    : folder_{std::move(folder)},
+      config_{config},
+      time_step_{setup.time_step},
+      history_{folder_.history(), setup.walls, rows_to_keep(config, resumed_at)} {
+  if (!resumed_at) return;
+  take_over("grains", *resumed_at, grains_);
+  take_over("contacts", *resumed_at, contacts_);
+  take_over("surfaces", *resumed_at, surfaces_);
+  if (belongs(*resumed_at, config.history_interval, *resumed_at)) last_row_ = resumed_at;
+  if (belongs(*resumed_at, config.fields_interval, *resumed_at)) last_frame_ = resumed_at;
+}
+
+void RunOutputs::append_history(const Measurement& measurement, double energy_at_start) {
+  history_.append(measurement, energy_at_start);
+  last_row_ = measurement.step;
+}
+
+void RunOutputs::write_fields(Simulation& simulation) {
+  const std::uint64_t step = simulation.step_number();
+  const std::vector<ContactRecord> contacts = simulation.contacts();
+  write_grain_points(folder_.root() / RunFolder::field_name("grains", step), simulation, contacts);
+  add_to_index("grains", step, grains_);
+  if (config_.contacts) {
+    write_contact_lines(folder_.root() / RunFolder::field_name("contacts", step), contacts,
+                        simulation.time());
+    add_to_index("contacts", step, contacts_);
+  }
+  if (config_.surfaces) {
+    if (surface_meshes_.empty()) surface_meshes_ = surface_meshes(*simulation.setup().shapes);
+    write_grain_surfaces(folder_.root() / RunFolder::field_name("surfaces", step),
+                         simulation.state().grains, surface_meshes_, simulation.time());
+    add_to_index("surfaces", step, surfaces_);
+  }
+  last_frame_ = step;
+}
+
+void RunOutputs::add_to_index(std::string_view kind, std::uint64_t step,
+                              std::vector<PvdEntry>& entries) {
+  entries.push_back({static_cast<double>(step) * time_step_, RunFolder::field_name(kind, step), {}});
+  write_pvd(folder_.index(kind), entries);
+}
+
+void RunOutputs::take_over(std::string_view kind, std::uint64_t resumed_at,
+                           std::vector<PvdEntry>& entries) {
+  const std::vector<std::uint64_t> steps = folder_.field_steps(kind);
+  for (const std::uint64_t step : steps) {
+    const std::string name = RunFolder::field_name(kind, step);
+    if (belongs(step, config_.fields_interval, resumed_at)) {
+      entries.push_back({static_cast<double>(step) * time_step_, name, {}});
+    } else {
+      std::filesystem::remove(folder_.root() / name);
+    }
+  }
+  if (!steps.empty()) write_pvd(folder_.index(kind), entries);
+}
+
+}  // namespace reckon

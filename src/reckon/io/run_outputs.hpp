@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "reckon/avatar/triangle_mesh.hpp"
+#include "reckon/core/vtk_xml.hpp"
+#include "reckon/io/history.hpp"
+#include "reckon/io/run_folder.hpp"
+#include "reckon/simulation/config.hpp"
+#include "reckon/simulation/simulation.hpp"
+
+namespace reckon {
+
+/// Whether something that happens every `interval` steps happens at `step`; never when 0.
+[[nodiscard]] constexpr bool is_due(std::uint64_t step, std::uint64_t interval) {
+  return interval > 0 && step % interval == 0;
+}
+
+/// The tables and pictures of a run under way. When a run is resumed at a step, what lies behind
+/// that step, and what only the end of the earlier session had written, is removed first: so the
+/// files become those of a run without a break.
+class RunOutputs {
+ public:
+  RunOutputs(RunFolder folder, const OutputConfig& config, const SimulationSetup& setup,
+             std::optional<std::uint64_t> resumed_at);
+
+  void append_history(const Measurement& measurement, double energy_at_start);
+  void write_fields(Simulation& simulation);
+
+  /// Whether the last row or files written are those of this step.
+  [[nodiscard]] bool history_has(std::uint64_t step) const { return last_row_ == step; }
+  [[nodiscard]] bool fields_have(std::uint64_t step) const { return last_frame_ == step; }
+
+ private:
+  void add_to_index(std::string_view kind, std::uint64_t step, std::vector<PvdEntry>& entries);
+  void take_over(std::string_view kind, std::uint64_t resumed_at, std::vector<PvdEntry>& entries);
+
+  RunFolder folder_;
+  OutputConfig config_;
+  double time_step_;
+  HistoryFile history_;
+  std::vector<PvdEntry> grains_;
+  std::vector<PvdEntry> contacts_;
+  std::vector<PvdEntry> surfaces_;
+  std::vector<TriangleMesh> surface_meshes_;  // made when first needed
+  std::optional<std::uint64_t> last_row_;
+  std::optional<std::uint64_t> last_frame_;
+};
+
+}  // namespace reckon

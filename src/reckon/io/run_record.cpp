@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/io/run_record.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <ctime>
+#include <system_error>
+#include <utility>
+
+#include "reckon/core/build_info.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/core/file.hpp"
+#include "reckon/io/json_writer.hpp"
+#include "reckon/parallel/threads.hpp"
+
+namespace reckon {
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+RunLog::RunLog(std::filesystem::path path)
+    : path_{std::move(path)},
+      descriptor_{::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666)} {
+  if (descriptor_ >= 0) return;
+  throw Error{{.place = path_.string(),
+               .problem = "cannot be written",
+               .reason = std::generic_category().message(errno),
+               .fix = {}}};
+}
+
+RunLog::~RunLog() { ::close(descriptor_); }
+
+void RunLog::write(std::string_view line) {
+  std::string text = utc_now() + "  ";
+  text += line;
+  text += '\n';
+  // A log that cannot grow must not end a run of days: the tables report a full disk.
+  [[maybe_unused]] const ssize_t written = ::write(descriptor_, text.data(), text.size());
+}
+
+void write_run_record(const std::filesystem::path& path, const RunRecord& record) {
+  const BuildInfo build = build_info();
+  char host[256] = "";
+  if (::gethostname(host, sizeof host - 1) != 0) host[0] = '\0';
+  const double steps_done = static_cast<double>(record.step - record.first_step);
+  JsonWriter json;
+  json.begin_object();
+  json.value("status", record.status);
+  if (!record.message.empty()) json.value("message", record.message);
+  json.value("scene", record.scene);
+  json.value("grains", record.grains);
+  json.value("shapes", record.shapes);
+  json.value("time_step_s", record.time_step);
+  json.value("step", record.step);
+  json.value("steps", record.steps);
+  json.value("time_s", static_cast<double>(record.step) * record.time_step);
+  json.begin_object("session");
+  json.value("first_step", record.first_step);
+  json.value("started", record.started);
+  json.value("written", utc_now());
+  json.value("wall_s", record.wall_seconds);
+  json.value("output_s", record.output_seconds);
+  json.value("steps_per_s", record.wall_seconds > 0 ? steps_done / record.wall_seconds : 0);
+  json.value("list_rebuilds", record.list_rebuilds);
+  json.value("threads", thread_count());
+  json.value("host", host);
+  json.end();
+  json.begin_object("program");
+  json.value("version", build.version);
+  json.value("revision", build.revision);
+  json.value("compiler", build.compiler);
+  json.value("flags", build.flags);
+  json.end();
+  json.end();
+  write_file(path, json.text());
+}
+
+}  // namespace reckon

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/io/scene_loader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/io/nearest_name.hpp"
+#include "reckon/io/number_table.hpp"
+#include "reckon/math/rotation.hpp"
+#include "reckon/simulation/placement.hpp"
+
+namespace reckon {
+namespace {
+
+class Loader {
+ public:
+  explicit Loader(SceneReading& reading) : reading_{reading} {}
+
+  LoadedScene load() {
+    const SceneConfig& config = reading_.config;
+    LoadedScene scene{.config = config, .shapes = {}, .grains = {}, .own_accelerations = {}};
+    for (std::size_t set = 0; set < config.grains.size(); ++set) {
+      load_set(config.grains[set], fmt::format("grains[{}]", set), scene);
+    }
+    scene.shapes = std::make_shared<const ShapeLibrary>(std::move(shapes_));
+    load_accelerations(scene);
+    if (reading_.faults.empty() && scene.grains.empty()) {
+      fault("grains", "the scene has no grains", "Place at least one.");
+    }
+    std::stable_sort(
+        reading_.faults.begin(), reading_.faults.end(),
+        [](const SceneFault& a, const SceneFault& b) { return a.position < b.position; });
+    return scene;
+  }
+
+ private:
+  void load_set(const GrainsConfig& set, const std::string& path, LoadedScene& scene) {
+    if (set.library.empty()) return;  // its fault is known
+    const std::size_t first_shape = shapes_.size();
+    const bool loaded = attempt(path + ".library", [&] {
+      ShapeLibrary library = load_library(set.library, set.voxel);
+      std::move(library.begin(), library.end(), std::back_inserter(shapes_));
+    });
+    if (!loaded) return;
+    const std::span<const Shape> shapes = std::span<const Shape>{shapes_}.subspan(first_shape);
+    const auto first_id = static_cast<std::uint32_t>(scene.grains.size());
+    const auto shape_in_turn = [&](std::size_t n) {
+      return ShapeId{static_cast<std::uint32_t>(first_shape + n % shapes.size())};
+    };
+    std::vector<GrainState> placed;
+    if (const auto* fill = std::get_if<FillPlacement>(&set.placement)) {
+      if (has_fault_below(path)) return;
+      attempt(path + ".fill", [&] {
+        placed = fill_region(*fill, shapes, ShapeId{static_cast<std::uint32_t>(first_shape)},
+                             GrainId{first_id}, reading_.config.seed);
+      });
+    } else if (const auto* each = std::get_if<std::vector<ExplicitGrain>>(&set.placement)) {
+      for (std::size_t n = 0; n < each->size(); ++n) {
+        placed.push_back(to_state((*each)[n]));
+        placed.back().shape = shape_in_turn(n);
+        if (!(*each)[n].shape.empty()) {
+          find_shape_of((*each)[n], fmt::format("{}.place[{}].shape", path, n), shapes, first_shape,
+                        placed.back());
+        }
+      }
+    } else {
+      placed = load_legacy(std::get<LegacyPlacement>(set.placement), set.voxel, path + ".files");
+      for (std::size_t n = 0; n < placed.size(); ++n) placed[n].shape = shape_in_turn(n);
+    }
+    for (GrainState& grain : placed) {
+      grain.id = GrainId{static_cast<std::uint32_t>(scene.grains.size())};
+      scene.grains.push_back(grain);
+    }
+  }
+
+  static GrainState to_state(const ExplicitGrain& grain) {
+    GrainState state;
+    state.prescribed = grain.fixed;
+    state.position = grain.position;
+    state.orientation = normalized(Quaternion{grain.orientation[0], grain.orientation[1],
+                                              grain.orientation[2], grain.orientation[3]});
+    state.velocity = grain.velocity;
+    state.angular_velocity_body =
+        transposed_times(rotation_matrix(state.orientation), grain.angular_velocity);
+    return state;
+  }
+
+  void find_shape_of(const ExplicitGrain& grain, const std::string& key,
+                     std::span<const Shape> shapes, std::size_t first_shape, GrainState& state) {
+    std::vector<std::string> names;
+    for (std::size_t s = 0; s < shapes.size(); ++s) {
+      if (shapes[s].name == grain.shape) {
+        state.shape = ShapeId{static_cast<std::uint32_t>(first_shape + s)};
+        return;
+      }
+      names.push_back(shapes[s].name);
+    }
+    const auto near = nearest_name(grain.shape, names);
+    fault(key, fmt::format("the library has no shape \"{}\"", grain.shape),
+          near ? fmt::format("Did you mean \"{}\"?", *near)
+               : "`reckon grains info` lists its shapes.");
+  }
+
+  std::vector<GrainState> load_legacy(const LegacyPlacement& files, double voxel,
+                                      const std::string& path) {
+    std::vector<std::array<double, 3>> positions;
+    std::vector<std::array<double, 4>> rotations;
+    if (files.positions_file.empty() || files.rotations_file.empty()) return {};
+    const bool read_positions = attempt(path + ".positions", [&] {
+      positions = read_number_table<3>(files.positions_file);
+    });
+    const bool read_rotations = attempt(path + ".rotations", [&] {
+      rotations = read_number_table<4>(files.rotations_file);
+    });
+    if (!read_positions || !read_rotations) return {};
+    if (positions.size() != rotations.size()) {
+      fault(path + ".rotations",
+            fmt::format("has {} lines, but there are {} positions", rotations.size(),
+                        positions.size()),
+            "Both files need one line per grain.");
+      return {};
+    }
+    std::vector<GrainState> grains;
+    for (std::size_t n = 0; n < positions.size(); ++n) {
+      // The legacy order (a, b, c, d) stands for (w, x, y, z) = (d, -b, a, -c).
+      const auto& [a, b, c, d] = rotations[n];
+      if (!(a * a + b * b + c * c + d * d > 0)) {
+        fault(path + ".rotations", fmt::format("line {} is no rotation: all zero", n + 1), {});
+        return {};
+      }
+      GrainState grain;
+      grain.position = voxel * Vec3{positions[n][0], positions[n][1], positions[n][2]};
+      grain.orientation = normalized(Quaternion{d, -b, a, -c});
+      grains.push_back(grain);
+    }
+    return grains;
+  }
+
+  void load_accelerations(LoadedScene& scene) {
+    const std::string& file = reading_.config.body.acceleration_file;
+    if (file.empty()) return;
+    const std::string key = "body.acceleration_file";
+    attempt(key, [&] {
+      for (const auto& row : read_number_table<3>(file)) {
+        scene.own_accelerations.push_back({row[0], row[1], row[2]});
+      }
+    });
+    const bool grains_are_known =
+        std::none_of(reading_.faults.begin(), reading_.faults.end(),
+                     [](const SceneFault& fault) { return fault.key.starts_with("grains"); });
+    if (grains_are_known && scene.own_accelerations.size() != scene.grains.size() &&
+        !has_fault_below(key)) {
+      fault(key,
+            fmt::format("has {} lines, but there are {} grains", scene.own_accelerations.size(),
+                        scene.grains.size()),
+            "It needs one line per grain.");
+    }
+  }
+
+  /// Runs `action`; an Error becomes a fault at `key`.
+  template <class Action>
+  bool attempt(const std::string& key, Action&& action) {
+    try {
+      action();
+      return true;
+    } catch (const Error& error) {
+      const ErrorText& text = error.text();
+      std::string problem = text.place.empty() ? text.problem : text.place + ": " + text.problem;
+      if (!text.reason.empty()) problem += " (" + text.reason + ")";
+      fault(key, std::move(problem), text.fix);
+      return false;
+    }
+  }
+
+  [[nodiscard]] bool has_fault_below(const std::string& path) const {
+    return std::any_of(reading_.faults.begin(), reading_.faults.end(),
+                       [&](const SceneFault& fault) { return fault.key.starts_with(path); });
+  }
+
+  void fault(std::string key, std::string problem, std::string fix) {
+    const auto known = reading_.positions.find(key);
+    const SourcePosition position =
+        known == reading_.positions.end() ? SourcePosition{} : known->second;
+    reading_.faults.push_back({position, std::move(key), std::move(problem), std::move(fix)});
+  }
+
+  SceneReading& reading_;
+  ShapeLibrary shapes_;
+};
+
+}  // namespace
+
+LoadedScene load_scene(SceneReading& reading) { return Loader{reading}.load(); }
+
+}  // namespace reckon
