@@ -97,7 +97,7 @@ LegacyMorphology parse_legacy_morphology(std::string_view text, const std::strin
   for (std::size_t v = 0; v < value_count; ++v)
     m.values.push_back(next_float(reader, "grid value"));
   if (const std::string_view rest = reader.next_token_anywhere(); !rest.empty()) {
-    reader.fail("there is more after the last grid value", "found " + quoted(rest),
+    reader.fail("there is more after the last grid value", "found " + in_quotes(rest),
                 "Check the grid's dimensions.");
   }
   return m;

@@ -43,7 +43,7 @@ LevelSet parse_level_set_text(std::string_view text, const std::string& name,
     grid.values.push_back(static_cast<float>(unit_in_metres * next("grid value")));
   }
   if (const std::string_view rest = reader.next_token_anywhere(); !rest.empty()) {
-    reader.fail("there is more after the last grid value", "found " + quoted(rest),
+    reader.fail("there is more after the last grid value", "found " + in_quotes(rest),
                 "Check the grid's dimensions in line 2.");
   }
   return grid;
