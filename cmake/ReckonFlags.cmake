@@ -28,3 +28,7 @@ if(RECKON_SANITIZE)
     -fsanitize=${RECKON_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(reckon_flags INTERFACE -fsanitize=${RECKON_SANITIZE})
 endif()
+
+if(RECKON_FUZZERS)
+  target_compile_options(reckon_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()

@@ -14,6 +14,7 @@ import re
 import shlex
 import subprocess
 import sys
+import textwrap
 import time
 import xml.etree.ElementTree
 
@@ -30,15 +31,16 @@ class Outcome:
     passed: int
     failed: int
     skipped: int = 0
-    details: str = ""  # shown when something failed
+    details: str = ""  # what the reader of the output should see
 
 
 def run(log, *commands, environment=None):
     """A stage made of commands: it passes when all of them do, and ends with the first that fails."""
     environment = {**os.environ, **(environment or {})}
+    code = 0
     with log.open("w", encoding="utf-8", errors="replace") as out:
         for command in commands:
-            print("$", shlex.join(map(str, command)), file=out, flush=True)
+            print("$", textwrap.shorten(shlex.join(command), 200), file=out, flush=True)
             try:
                 code = subprocess.run(command, cwd=ROOT, env=environment, stdout=out, check=False,
                                       stdin=subprocess.DEVNULL, stderr=subprocess.STDOUT).returncode
@@ -47,10 +49,11 @@ def run(log, *commands, environment=None):
                 code = 127
             if code != 0:
                 break
-        else:
-            return Outcome(passed=1, failed=0)
-    tail = log.read_text(encoding="utf-8", errors="replace").splitlines()[-SHOWN_LINES:]
-    return Outcome(passed=0, failed=1, details="\n".join(tail))
+    lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+    if code != 0:
+        return Outcome(passed=0, failed=1, details="\n".join(lines[-SHOWN_LINES:]))
+    notes = [line for line in lines if line.startswith("note: ")]
+    return Outcome(passed=1, failed=0, details="\n".join(notes))
 
 
 def tool(*arguments):
@@ -96,9 +99,9 @@ def build(preset, *targets):
     make = ["cmake", "--build", "--preset", preset, "-j", str(JOBS)]
     if targets:
         make += ["--target", *targets]
-    # Warnings are errors here whatever the preset says; -k 0 shows the faults of all files.
+    # Warnings are errors here whatever the preset says; -k 0 goes on to the faults of other files.
     return lambda log: run(log, ["cmake", "--preset", preset, "-DRECKON_WARNINGS_AS_ERRORS=ON"],
-                           [*make, "--", "-k", "0"])
+                           [*make, "--", "--quiet", "-k", "0"])
 
 
 def tests(preset, *selection, environment=None):
@@ -191,8 +194,10 @@ def main():
         counts = f"{outcome.passed} passed, {outcome.failed} failed"
         if outcome.skipped:
             counts += f", {outcome.skipped} skipped"
+        if outcome.details:
+            print(outcome.details)
         if outcome.failed:
-            print(f"{outcome.details}\n   (whole log: build/check/{number:02}.log)")
+            print(f"   (whole log: build/check/{number:02}.log)")
         print(f"   {verdict} in {took}" + (f": {counts}" if outcome.passed + outcome.failed > 1 else ""),
               flush=True)
         summary.append((name, verdict, took, outcome))

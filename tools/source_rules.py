@@ -19,6 +19,7 @@ SPDX_LINES = (
     "SPDX-License-Identifier: BSD-3-Clause",
 )
 CPP_SUFFIXES = (".cpp", ".hpp")
+FUZZ_INPUTS = "tests/fuzz/regressions/"  # kept as they were found
 COMMENTED_SUFFIXES = CPP_SUFFIXES + (".py", ".sh", ".cmake", ".toml")
 LONGEST_FILE = 500  # lines; nine in ten should stay under 250
 MPI_MODULES = ("parallel", "domain", "io")
@@ -190,6 +191,8 @@ def random_numbers_are_counter_based(project):
 def files_name_their_licence(project):
     """Two SPDX lines open every source and script."""
     for path, text in sorted(project.files.items()):
+        if path.startswith(FUZZ_INPUTS):
+            continue
         name = path.rsplit("/", 1)[-1]
         wanted = (path.endswith(COMMENTED_SUFFIXES) or name == "CMakeLists.txt"
                   or text.startswith("#!"))
@@ -212,11 +215,11 @@ def texts_stand_alone(project):
 
 
 def files_stay_short(project):
-    """No source over LONGEST_FILE lines."""
+    """A source over LONGEST_FILE lines wants a reason, or to be split."""
     for path, text in sorted(project.files.items()):
         length = text.count("\n")
         if path.endswith(CPP_SUFFIXES + (".py", ".ts")) and length > LONGEST_FILE:
-            yield f"{path}:1: {length} lines; split it (the limit is {LONGEST_FILE})"
+            yield f"{path}:1: {length} lines, over {LONGEST_FILE}: has it a reason not to be split?"
 
 
 def dependencies_are_explained(project):
@@ -243,9 +246,9 @@ RULES = (
     random_numbers_are_counter_based,
     files_name_their_licence,
     texts_stand_alone,
-    files_stay_short,
     dependencies_are_explained,
 )
+ADVICE = (files_stay_short,)  # told, but no fault
 
 
 def main():
@@ -255,6 +258,9 @@ def main():
         for complaint in rule(project):
             print(f"{complaint}  [{rule.__name__}]")
             complaints += 1
+    for rule in ADVICE:
+        for complaint in rule(project):
+            print(f"note: {complaint}")
     print(f"{len(RULES)} rules over {len(project.files)} files: {complaints} complaints")
     return 1 if complaints else 0
 

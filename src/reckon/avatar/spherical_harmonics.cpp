@@ -48,7 +48,7 @@ std::vector<Term> parse_terms(TextReader& reader) {
     }
     if (const std::string_view extra = reader.next_token();
         !extra.empty() && extra.front() != '#') {
-      reader.fail("there is more than four numbers", "found " + quoted(extra),
+      reader.fail("there is more than four numbers", "found " + in_quotes(extra),
                   "Check that the lines read 'n m Re Im'.");
     }
     terms.push_back(term);

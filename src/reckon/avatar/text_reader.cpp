@@ -4,7 +4,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -12,8 +11,6 @@
 
 namespace reckon {
 namespace {
-
-constexpr std::uintmax_t largest_file = std::uintmax_t{4} << 30;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\0'; }
 
@@ -24,38 +21,6 @@ std::string_view without_plus(std::string_view token) {
 }
 
 }  // namespace
-
-std::string read_file(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw Error{{.place = name, .problem = "is a folder", .reason = "", .fix = "Name a file."}};
-  }
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) {
-    throw Error{{.place = name,
-                 .problem = "cannot be opened",
-                 .reason = error.message(),
-                 .fix = "Check the path and its permissions."}};
-  }
-  if (size > largest_file) {
-    throw Error{{.place = name,
-                 .problem = "is too large",
-                 .reason = std::to_string(size) + " bytes, the limit is 4 GiB",
-                 .fix = "Simplify the mesh or split the file."}};
-  }
-  std::ifstream file{path, std::ios::binary};
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!file || file.gcount() != static_cast<std::streamsize>(size)) {
-    throw Error{{.place = name,
-                 .problem = "cannot be read",
-                 .reason = "got " + std::to_string(file.gcount()) + " of " + std::to_string(size) +
-                           " bytes",
-                 .fix = "Check the disk and the file's permissions."}};
-  }
-  return bytes;
-}
 
 bool TextReader::next_line() {
   if (rest_.empty()) {
@@ -102,16 +67,16 @@ double TextReader::to_double(std::string_view token, std::string_view what) cons
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range && end == digits.data() + digits.size()) {
-    fail("the " + std::string{what} + " " + quoted(token) + " is out of range",
+    fail("the " + std::string{what} + " " + in_quotes(token) + " is out of range",
          "double precision reaches from 1e-308 to 1e308", "Correct the number.");
   }
   if (digits.empty() || error != std::errc{} || end != digits.data() + digits.size()) {
     fail("expected a number for the " + std::string{what},
-         token.empty() ? "the line ends" : "found " + quoted(token),
+         token.empty() ? "the line ends" : "found " + in_quotes(token),
          "Correct the line, or write the file again.");
   }
   if (!std::isfinite(value)) {
-    fail("the " + std::string{what} + " is not finite", "found " + quoted(token),
+    fail("the " + std::string{what} + " is not finite", "found " + in_quotes(token),
          "Check what wrote the file.");
   }
   return value;
@@ -123,7 +88,7 @@ std::int64_t TextReader::to_integer(std::string_view token, std::string_view wha
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (digits.empty() || error != std::errc{} || end != digits.data() + digits.size()) {
     fail("expected an integer for the " + std::string{what},
-         token.empty() ? "the line ends" : "found " + quoted(token),
+         token.empty() ? "the line ends" : "found " + in_quotes(token),
          "Correct the line, or write the file again.");
   }
   return value;
@@ -136,7 +101,7 @@ void TextReader::fail(std::string problem, std::string reason, std::string fix) 
                .fix = std::move(fix)}};
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string out = "'";
   for (const char c : text.substr(0, longest)) {
@@ -144,6 +109,14 @@ std::string quoted(std::string_view text) {
     out += code < 0x20 || code >= 0x7f ? '?' : c;
   }
   return out + (text.size() > longest ? "...'" : "'");
+}
+
+std::string lower_case(std::string_view text) {
+  std::string out{text};
+  for (char& c : out) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return out;
 }
 
 }  // namespace reckon

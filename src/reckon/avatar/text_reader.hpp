@@ -3,14 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
-namespace reckon {
+#include "reckon/core/file.hpp"  // read_file, which most users of a reader need
 
-/// The bytes of a file. Throws Error when it cannot be read, is a folder, or is larger than 4 GiB.
-[[nodiscard]] std::string read_file(const std::filesystem::path& path);
+namespace reckon {
 
 /// Walks through a text line by line and token by token, and knows where it is, so that every
 /// complaint names file and line. Tokens are separated by blanks; \n, \r\n and \r end lines.
@@ -39,7 +37,9 @@ class TextReader {
   /// Throws Error for the current line.
   [[noreturn]] void fail(std::string problem, std::string reason, std::string fix) const;
 
+  /// What follows the current line, and what is left of it.
   [[nodiscard]] std::string_view remaining_text() const { return rest_; }
+  [[nodiscard]] std::string_view remaining_line() const { return line_; }
   [[nodiscard]] std::size_t line_number() const { return line_number_; }
 
  private:
@@ -50,6 +50,9 @@ class TextReader {
 };
 
 /// A piece of an input for an error text: cut short, control characters replaced.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
+
+/// With A to Z in lower case; other bytes stay, whatever the locale.
+[[nodiscard]] std::string lower_case(std::string_view text);
 
 }  // namespace reckon

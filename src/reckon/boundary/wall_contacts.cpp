@@ -93,11 +93,8 @@ void WallContacts::evaluate(std::span<const GrainFrame> frames, double time_step
     new_springs_of_candidate_[c] = store_.append([&](std::vector<NodeSpring>& arena) {
       forces_[c] = {};
       if (touches.empty() && old_springs.empty()) return;
-      const PairContext context{.effective_mass = grain.mass,
-                                .friction = walls_[w].friction,
-                                .total_area = 0,
-                                .touching = 0,
-                                .time_step = time_step};
+      const PairContext context{
+          .effective_mass = grain.mass, .friction = walls_[w].friction, .time_step = time_step};
       const RigidMotion grain_motion{grain.position, grain.velocity, grain.angular_velocity_world};
       const RigidMotion wall_motion{grain.position, poses_[w].velocity, {}};
       std::visit(

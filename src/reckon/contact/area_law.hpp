@@ -14,16 +14,20 @@ namespace reckon {
 ///
 ///   F_n = -k_n A phi grad(phi)      F_s: Coulomb spring with k_s A, |F_s| <= mu |F_n|
 ///
+///
 /// The gradient is that of the interpolant, not normalised: the normal force is then minus the
 /// derivative of the energy k_n A phi^2 / 2, and a frictionless collision loses nothing.
 ///
 /// The dashpot acts on the pair as a whole. Its coefficient dashpot_factor sqrt(m_eff k_n A_total)
 /// follows the pair's tangent stiffness, which makes restitution independent of the speed of
-/// impact (Tsuji et al. 1992 for Hertz's law); it is shared out by area and never pulls.
+/// impact (Tsuji et al. 1992 for Hertz's law); nodes share it as they share the elastic push. A
+/// viscosity adds eta A (v . n) n per node. Neither lets a node pull. Both act at every node, so
+/// they also damp rolling: nodes come in on one side of the contact and leave on the other.
 struct AreaLaw {
   double normal_stiffness{0};  ///< k_n [N/m^3]
   double shear_stiffness{0};   ///< k_s [N/m^3]
   double dashpot_factor{0};    ///< see area_dashpot_factor; 0: none
+  double viscosity{0};         ///< eta [N s/m^3]
 
   [[nodiscard]] NodeResponse respond(const PairContext& context, const Touch& touch,
                                      const Vec3& normal, const Vec3& velocity,
@@ -32,12 +36,12 @@ struct AreaLaw {
     const double elastic_push = -normal_stiffness * touch.area * touch.phi * steepness;
     double push = elastic_push;
     double dashpot_power = 0;
-    if (dashpot_factor > 0) {
+    if (dashpot_factor > 0 || viscosity > 0) {
       const double approach = dot(normal, velocity);
+      const double pair_dashpot = dashpot_factor * std::sqrt(context.effective_mass *
+                                                             normal_stiffness * context.total_area);
       const double gamma =
-          dashpot_factor *
-          std::sqrt(context.effective_mass * normal_stiffness * context.total_area) *
-          (touch.area / context.total_area);
+          pair_dashpot * (-touch.area * touch.phi / context.total_volume) + viscosity * touch.area;
       push = std::max(elastic_push - gamma * approach, 0.0);
       dashpot_power = (elastic_push - push) * approach;
     }

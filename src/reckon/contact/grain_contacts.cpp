@@ -68,8 +68,6 @@ PairForce GrainContacts::evaluate_pair(const Law& law, const GrainFrame& a, cons
   PairForce pair;
   const PairContext context{.effective_mass = a.mass * b.mass / (a.mass + b.mass),
                             .friction = settings_.friction,
-                            .total_area = 0,
-                            .touching = 0,
                             .time_step = time_step};
   const auto first_of_b = std::find_if(old_springs.begin(), old_springs.end(),
                                        [](const NodeSpring& s) { return s.master_is_b; });

@@ -47,7 +47,11 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
   DirectedForce sum;
   context.touching = static_cast<std::uint32_t>(touches.size());
   context.total_area = 0;
-  for (const Touch& touch : touches) context.total_area += touch.area;
+  context.total_volume = 0;
+  for (const Touch& touch : touches) {
+    context.total_area += touch.area;
+    context.total_volume -= touch.area * touch.phi;
+  }
 
   const Vec3 center_offset = master_center - slave.center;
   auto old = old_springs.begin();

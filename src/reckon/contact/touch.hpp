@@ -23,6 +23,7 @@ struct PairContext {
   double effective_mass{0};   ///< m_a m_b / (m_a + m_b); the grain's own mass on a wall [kg]
   double friction{0};         ///< Coulomb coefficient
   double total_area{0};       ///< of the touching nodes [m^2]
+  double total_volume{0};     ///< sum of their areas times depths [m^3]
   std::uint32_t touching{0};  ///< number of touching nodes
   double time_step{0};        ///< [s]
 };

@@ -46,6 +46,8 @@ struct Choice {
   std::string_view word;
   Value value;
 };
+template <class Value>  // which compilers before C++20's own rule need to be told
+Choice(std::string_view, Value) -> Choice<Value>;
 
 /// How many of the keys of one_of must be given.
 enum class Presence { exactly_one, at_most_one };
@@ -110,6 +112,13 @@ void describe(Visitor& v, ContactConfig& contact) {
             .standard = "no dashpot",
             .meaning = "Coefficient of restitution that sets a normal dashpot in each contact."},
            contact.restitution);
+  v.number({.name = "viscosity",
+            .unit = "N s/m^3",
+            .range = at_least(0),
+            .meaning = "Law `area`: a further normal dashpot per area of touching nodes."},
+           contact.viscosity);
+  v.rule(contact.viscosity == 0 || contact.law == ContactLawKind::area, {"viscosity"},
+         "`viscosity` belongs to law `area`; law `linear` is damped by `restitution`");
   v.integer({.name = "node_cap",
              .range = at_least(1),
              .standard = "no cap",

@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <initializer_list>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -34,12 +37,23 @@ std::string toml_text(std::string_view text) {
   return out + '"';
 }
 
+/// The shortest text that reads back as `value`. TOML's integers know no negative zero.
+std::string toml_number(double value) {
+  return value == 0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value);
+}
+
+std::string toml_numbers(std::span<const double> values) {
+  std::string out;
+  for (const double value : values) out += (out.empty() ? "" : ", ") + toml_number(value);
+  return "[" + out + "]";
+}
+
 /// The visitor that writes a scene down. Tables directly under the top get headers; deeper ones
 /// use dotted keys or their own headers, whichever TOML allows.
 class Writer {
  public:
   void number(const SceneKey& key, double& value) {
-    line(key, fmt::format("{}", value), key.unit == "1" ? "" : key.unit);
+    line(key, toml_number(value), key.unit == "1" ? "" : key.unit);
   }
   void number(const SceneKey& key, std::optional<double>& value) {
     if (value) number(key, *value);
@@ -58,11 +72,10 @@ class Writer {
   }
   void file(const SceneKey& key, std::string& value) { text(key, value); }
   void vector(const SceneKey& key, Vec3& value) {
-    line(key, fmt::format("[{}, {}, {}]", value.x, value.y, value.z),
-         key.unit == "1" ? "" : key.unit);
+    line(key, toml_numbers(std::array{value.x, value.y, value.z}), key.unit == "1" ? "" : key.unit);
   }
   void quaternion(const SceneKey& key, std::vector<double>& value) {
-    line(key, fmt::format("[{}]", fmt::join(value, ", ")));
+    line(key, toml_numbers(value));
   }
   template <class Value, std::size_t count>
   void choice(const SceneKey& key, Value& value, const std::array<Choice<Value>, count>& choices) {

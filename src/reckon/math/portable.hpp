@@ -72,4 +72,10 @@ struct CosSin {
 /// x to the power y for x >= 0 and y > 0.
 [[nodiscard]] inline double pow(double x, double y) { return x > 0 ? exp(y * log(x)) : 0; }
 
+/// The cube root of a positive, normal, finite number.
+[[nodiscard]] inline double cbrt(double x) {
+  const double guess = exp(log(x) / 3);
+  return guess - (guess * guess * guess - x) / (3 * guess * guess);  // a Newton step
+}
+
 }  // namespace reckon::portable

@@ -36,11 +36,11 @@ double lipschitz_constant(const LevelSetView& grid) {
   return std::sqrt(steepest_squared) / grid.spacing;
 }
 
-std::vector<NodeCluster> make_clusters(const SurfaceNodes& nodes, std::uint32_t nodes_per_cluster) {
+std::vector<NodeCluster> make_clusters(const SurfaceNodes& nodes, std::uint32_t per_cluster) {
   std::vector<NodeCluster> clusters;
   const auto total = static_cast<std::uint32_t>(nodes.size());
-  for (std::uint32_t first = 0; first < total; first += nodes_per_cluster) {
-    const std::uint32_t count = std::min(nodes_per_cluster, total - first);
+  for (std::uint32_t first = 0; first < total; first += per_cluster) {
+    const std::uint32_t count = std::min(per_cluster, total - first);
     Vec3 low = nodes.position(first);
     Vec3 high = low;
     for (std::uint32_t n = first; n < first + count; ++n) {

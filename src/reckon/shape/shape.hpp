@@ -50,7 +50,10 @@ struct ShapeDescriptors {
   double flatness{0};             ///< thickness / width (Zingg 1935)
   double sphericity{0};  ///< area of the sphere of equal volume / surface area (Wadell 1932)
   double convexity{0};   ///< volume / volume of the convex hull
-  double roundness{0};   ///< mean corner radius / largest inscribed radius (Wadell 1932)
+  /// Mean corner radius / largest inscribed radius (Wadell 1932), in three dimensions: corners are
+  /// where the sharper principal radius of curvature, seen over a tenth of the equivalent diameter,
+  /// is below the inscribed radius; 1 without corners.
+  double roundness{0};
 };
 
 /// One grain's immutable geometry in its body frame: origin at the centre of mass, axes along the
@@ -66,10 +69,12 @@ struct Shape {
   double lipschitz{1};        ///< see lipschitz_constant
 };
 
-/// Groups the nodes, in their order, into runs of at most `nodes_per_cluster`, each with a sphere
-/// that holds its nodes (rounded outward).
+inline constexpr std::uint32_t nodes_per_cluster = 16;
+
+/// Groups the nodes, in their order, into runs of at most `per_cluster`, each with a sphere that
+/// holds its nodes (rounded outward).
 [[nodiscard]] std::vector<NodeCluster> make_clusters(const SurfaceNodes& nodes,
-                                                     std::uint32_t nodes_per_cluster = 16);
+                                                     std::uint32_t per_cluster = nodes_per_cluster);
 
 /// A shape as the kernels read it. Does not own.
 struct ShapeView {

@@ -32,6 +32,7 @@ struct ContactConfig {
   double normal_stiffness{0};  ///< linear: k_n [N/m] per node; area: k_n [N/m^3]; > 0, no default
   double shear_stiffness{0};   ///< same unit; > 0; io defaults it to 0.9 k_n
   std::optional<double> restitution;  ///< in (0, 1): adds a normal dashpot; absent: none
+  double viscosity{0};                ///< area: a further normal dashpot per area [N s/m^3], >= 0
   std::optional<std::uint32_t>
       node_cap;  ///< linear: pairs with more touching nodes are scaled by cap/n
   MasterRule master{MasterRule::lower_id};

@@ -18,7 +18,8 @@ AnyContactLaw make_law(const ContactConfig& contact, double normal_stiffness,
                      contact.node_cap.value_or(0)};
   }
   return AreaLaw{normal_stiffness, shear_stiffness,
-                 damped ? area_dashpot_factor(*contact.restitution) : 0};
+                 damped ? area_dashpot_factor(*contact.restitution) : 0,
+                 dashpot ? contact.viscosity : 0};
 }
 
 /// A wall's surfaces and what to add to its name: a box has several.

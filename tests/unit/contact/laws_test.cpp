@@ -17,6 +17,7 @@ PairContext context(double friction) {
   return {.effective_mass = 0.25,
           .friction = friction,
           .total_area = 0.02,
+          .total_volume = 2e-5,
           .touching = 4,
           .time_step = dt};
 }
@@ -92,7 +93,7 @@ double rebound_ratio(double power, double alpha, bool pulls, double speed) {
   const double stiffness = 7e6;
   double x = 0;
   double v = speed;
-  const double step = 1e-9;
+  const double step = 1e-8;
   while (x > 0 || v > 0) {
     const double tangent = power * stiffness * std::pow(std::max(x, 0.0), power - 1);
     double push =

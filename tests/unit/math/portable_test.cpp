@@ -47,5 +47,11 @@ TEST(PortableFunctions, HaveTheseBits) {
   EXPECT_EQ(portable::cos_sin_of_turns(0.1).sin, 0x1.2cf2304755a5ep-1);
 }
 
+TEST(Portable, CubeRootIsRightToTheLastBits) {
+  for (double x = 1e-30; x < 1e30; x *= 1.7) {
+    EXPECT_NEAR(portable::cbrt(x) / std::cbrt(x), 1, 4e-16) << x;
+  }
+}
+
 }  // namespace
 }  // namespace reckon

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/avatar/shape_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "reckon/avatar/descriptors.hpp"
+#include "reckon/avatar/grid_mass.hpp"
+#include "reckon/avatar/inside_radius.hpp"
+#include "reckon/avatar/surface_nodes.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/math/portable.hpp"
+#include "reckon/parallel/threads.hpp"
+#include "reckon/shape/node_order.hpp"
+
+namespace reckon {
+namespace {
+
+constexpr double padding = 2.25;  // beyond the surface's bounding box [spacings]
+constexpr std::size_t area_samples_per_node = 256;
+constexpr double largest_lost_share = 0.05;  // of the nodes
+
+[[noreturn]] void refuse(const std::string& name, std::string problem, std::string reason,
+                         std::string fix) {
+  throw Error{{.place = name,
+               .problem = std::move(problem),
+               .reason = std::move(reason),
+               .fix = std::move(fix)}};
+}
+
+void check_resolution(const ShapeResolution& resolution, double diameter, const std::string& name) {
+  const double voxels =
+      resolution.voxel_size ? diameter / *resolution.voxel_size : resolution.voxels_per_diameter;
+  if (!(voxels >= 10)) {
+    refuse(name, "the grid would be too coarse",
+           fmt::format("{:.3g} voxels per diameter, and at least 10 are needed", voxels),
+           "Give more voxels per diameter or a smaller voxel.");
+  }
+  const bool spacing_good = resolution.node_spacing > 0 && resolution.node_spacing <= 0.5;
+  if (resolution.node_count ? *resolution.node_count < 4 : !spacing_good) {
+    refuse(name, "the nodes would be too few or without number",
+           "node spacing must lie in (0, 0.5] diameters, and a node count must be at least 4",
+           "Leave it out for nodes a tenth of a diameter apart.");
+  }
+}
+
+}  // namespace
+
+LevelSet sample_signed_distance(const TriangleBvh& bvh, double spacing) {
+  LevelSet grid;
+  grid.spacing = spacing;
+  const Vec3 center = 0.5 * (bvh.bounds().low + bvh.bounds().high);
+  const Vec3 extent = bvh.bounds().high - bvh.bounds().low;
+  double count = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cells = std::ceil(extent[axis] / spacing + 2 * padding);
+    count *= cells + 1;
+    if (!(count <= largest_grid)) {
+      throw Error{{.place = {},
+                   .problem = "the grid would be too large",
+                   .reason = fmt::format("more than {:.0e} vertices", largest_grid),
+                   .fix = "Give fewer voxels per diameter or a larger voxel."}};
+    }
+    grid.dims[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(cells) + 1;
+    grid.origin_body[axis] = center[axis] - 0.5 * cells * spacing;
+  }
+  grid.values.resize(static_cast<std::size_t>(count));
+  parallel_for(static_cast<std::size_t>(grid.dims[2]), 1, [&](std::size_t slab) {
+    const auto k = static_cast<std::int32_t>(slab);
+    for (std::int32_t j = 0; j < grid.dims[1]; ++j) {
+      // The last vertex's closest point is near this one's, so its distance bounds the search. The
+      // bound only saves time.
+      std::optional<ClosestPoint> closest;
+      for (std::int32_t i = 0; i < grid.dims[0]; ++i) {
+        const Vec3 vertex = grid.vertex_body(i, j, k);
+        if (closest) {
+          const double bound = norm(vertex - closest->point) * (1 + 1e-12);
+          closest = bvh.closest_point_within(vertex, bound);
+        }
+        if (!closest) closest = bvh.closest_point(vertex);
+        grid.values[grid.index(i, j, k)] =
+            static_cast<float>(bvh.signed_distance(vertex, *closest));
+      }
+    }
+  });
+  return grid;
+}
+
+std::optional<Vec3> project_to_surface(const LevelSetView& grid, const Vec3& start,
+                                       const Vec3& normal) {
+  const double reach = 2 * grid.spacing;
+  const double tolerance = 1e-12 * grid.spacing;
+  Vec3 point = start;
+  for (int round = 0; round < 30; ++round) {
+    const LevelSetView::Sample here = grid.sample(point);
+    if (!here.inside_grid || norm(point - start) > reach) break;
+    if (std::abs(here.phi) <= tolerance) return point;
+    const double slope = squared_norm(here.gradient_body);
+    if (!(slope > 0.01)) break;
+    point -= (here.phi / slope) * here.gradient_body;
+  }
+  // Newton may circle about the border between two cells. Along a line phi is continuous.
+  const auto phi_at = [&](double s) {
+    const LevelSetView::Sample sample = grid.sample(start + s * normal);
+    return sample.inside_grid ? sample.phi : grid.spacing;
+  };
+  double outer = 0.5 * grid.spacing;
+  while (outer < reach && !(phi_at(outer) >= 0)) outer += 0.25 * grid.spacing;
+  double inner = outer;
+  while (inner > -reach && !(phi_at(inner) < 0)) inner -= 0.05 * grid.spacing;
+  if (!(phi_at(outer) >= 0) || !(phi_at(inner) < 0)) return std::nullopt;
+  outer = inner + 0.05 * grid.spacing;
+  for (int round = 0; round < 60; ++round) {
+    const double middle = 0.5 * (inner + outer);
+    (phi_at(middle) < 0 ? inner : outer) = middle;
+  }
+  return start + inner * normal;
+}
+
+void add_nodes(Shape& shape, const TriangleMesh& body_mesh, const TriangleBvh& bvh,
+               double surface_area, std::size_t node_count) {
+  const OrientedPoints spread = spread_points(body_mesh, bvh, node_count);
+  OrientedPoints nodes;
+  for (std::size_t n = 0; n < spread.size(); ++n) {
+    const auto point = project_to_surface(shape.level_set, spread.position[n], spread.normal[n]);
+    if (!point) continue;  // a part too thin for the grid: contact does not see it either
+    nodes.position.push_back(*point);
+    nodes.normal.push_back(spread.normal[n]);
+  }
+  if (static_cast<double>(nodes.size()) <
+      (1 - largest_lost_share) * static_cast<double>(spread.size())) {
+    refuse(shape.name, "the grid is too coarse for the thinnest parts",
+           fmt::format("{} of {} nodes find no surface on it", spread.size() - nodes.size(),
+                       spread.size()),
+           "Give more voxels per diameter.");
+  }
+  const OrientedPoints samples = sample_surface(body_mesh, area_samples_per_node * nodes.size());
+  SurfaceNodes unsorted;
+  unsorted.area = tributary_areas(nodes, samples, surface_area);
+  for (const Vec3& p : nodes.position) {
+    unsorted.x.push_back(p.x);
+    unsorted.y.push_back(p.y);
+    unsorted.z.push_back(p.z);
+  }
+  shape.nodes = in_compact_order(unsorted);
+  shape.clusters = make_clusters(shape.nodes);
+  shape.lipschitz = lipschitz_constant(shape.level_set);
+  double farthest_node = 0;
+  for (const Vec3& p : nodes.position) farthest_node = std::max(farthest_node, norm(p));
+  shape.bounding_radius = inside_radius(shape.level_set, farthest_node);
+}
+
+Shape build_shape(const TriangleMesh& mesh, const ShapeResolution& resolution,
+                  const std::string& name) {
+  const SolidProperties solid = solid_properties(mesh);
+  if (!(solid.volume > 0) || !std::isfinite(solid.volume)) {
+    refuse(name, "the surface encloses no volume", fmt::format("{} m^3", solid.volume),
+           "Give a closed surface whose triangles face outward.");
+  }
+  const double diameter = portable::cbrt(6 * solid.volume / std::numbers::pi);
+  check_resolution(resolution, diameter, name);
+  const PrincipalFrame frame = principal_frame(solid);
+  const TriangleMesh body_mesh = to_frame(mesh, frame);
+  const TriangleBvh bvh{body_mesh};
+
+  Shape shape;
+  shape.name = name;
+  shape.mass = {solid.volume, frame.moments};
+  shape.level_set = sample_signed_distance(
+      bvh, resolution.voxel_size.value_or(diameter / resolution.voxels_per_diameter));
+  const double grid_volume = grid_properties(shape.level_set).volume;
+  if (!(std::abs(grid_volume / solid.volume - 1) <= largest_grid_error)) {
+    refuse(name, "the grid is too coarse for this shape",
+           fmt::format("counting on it gives {:.1f} % of the volume",
+                       100 * grid_volume / solid.volume),
+           "Give more voxels per diameter.");
+  }
+  const double node_area = resolution.node_spacing * diameter * resolution.node_spacing * diameter;
+  const double wanted =
+      resolution.node_count ? *resolution.node_count : std::ceil(solid.surface_area / node_area);
+  add_nodes(shape, body_mesh, bvh, solid.surface_area, static_cast<std::size_t>(wanted));
+  shape.descriptors = describe_shape(body_mesh, bvh, solid, shape.level_set);
+  return shape;
+}
+
+}  // namespace reckon

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/core/xxhash64.hpp"
+
+namespace reckon {
+namespace {
+
+[[noreturn]] void refuse(const std::string& place, std::string problem, std::string reason = {}) {
+  throw Error{{.place = place,
+               .problem = std::move(problem),
+               .reason = std::move(reason),
+               .fix = "Make the shape anew from its source."}};
+}
+
+void check_grid(const LevelSet& grid, const std::string& place) {
+  std::uint64_t count = 1;
+  for (const std::int32_t dim : grid.dims) {
+    if (dim < 2) refuse(place, "the grid has too few vertices", "each axis needs at least 2");
+    // Three 31-bit numbers need not fit into 64 bits, so compare before multiplying.
+    if (static_cast<std::uint64_t>(dim) > grid.values.size() / count) {
+      refuse(place, "the grid's dims and its number of values disagree");
+    }
+    count *= static_cast<std::uint64_t>(dim);
+  }
+  if (count != grid.values.size()) {
+    refuse(place, "the grid's dims and its number of values disagree");
+  }
+  if (!(grid.spacing > 0) || !std::isfinite(grid.spacing) || !is_finite(grid.origin_body)) {
+    refuse(place, "the grid's spacing or origin is no good number");
+  }
+  if (!std::all_of(grid.values.begin(), grid.values.end(),
+                   [](float value) { return std::isfinite(value); })) {
+    refuse(place, "the grid holds a value that is not finite");
+  }
+}
+
+void check_nodes(const SurfaceNodes& nodes, const std::string& place) {
+  const std::size_t count = nodes.size();
+  if (count == 0 || nodes.y.size() != count || nodes.z.size() != count ||
+      nodes.area.size() != count) {
+    refuse(place, "has no nodes, or node arrays of different lengths");
+  }
+  for (std::size_t n = 0; n < count; ++n) {
+    if (!is_finite(nodes.position(n)) || !std::isfinite(nodes.area[n]) || nodes.area[n] < 0) {
+      refuse(place, fmt::format("node {} has a position or area that is no good number", n));
+    }
+  }
+}
+
+template <class T>
+void add(XxHash64& hash, const std::vector<T>& values) {
+  hash.update(std::as_bytes(std::span{values}));
+}
+
+}  // namespace
+
+void check_shape(const Shape& shape, const std::string& place) {
+  check_grid(shape.level_set, place);
+  check_nodes(shape.nodes, place);
+  const auto& [volume, inertia] = shape.mass;
+  for (const double positive :
+       {volume, inertia.x, inertia.y, inertia.z, shape.bounding_radius, shape.lipschitz}) {
+    if (!(positive > 0) || !std::isfinite(positive)) {
+      refuse(place, "volume, inertia, bounding radius and Lipschitz constant must be positive",
+             fmt::format("{} was found", positive));
+    }
+  }
+}
+
+std::uint64_t shape_digest(const Shape& shape) {
+  XxHash64 hash;
+  add(hash, std::vector<std::int32_t>(shape.level_set.dims.begin(), shape.level_set.dims.end()));
+  const Vec3& origin = shape.level_set.origin_body;
+  const auto& [volume, inertia] = shape.mass;
+  add(hash,
+      std::vector<double>{shape.level_set.spacing, origin.x, origin.y, origin.z, volume, inertia.x,
+                          inertia.y, inertia.z, shape.bounding_radius, shape.lipschitz});
+  add(hash, shape.level_set.values);
+  for (const auto* values : {&shape.nodes.x, &shape.nodes.y, &shape.nodes.z, &shape.nodes.area}) {
+    add(hash, *values);
+  }
+  return hash.digest();
+}
+
+const Shape& find_shape(const ShapeLibrary& library, std::string_view name) {
+  const auto found = std::find_if(library.begin(), library.end(),
+                                  [&](const Shape& shape) { return shape.name == name; });
+  if (found == library.end()) {
+    throw Error{
+        {.place = {},
+         .problem = fmt::format("there is no shape named {}", name),
+         .reason = fmt::format("the library holds {} shapes, the first is {}", library.size(),
+                               library.empty() ? "missing" : library.front().name),
+         .fix = "reckon grains info lists the names."}};
+  }
+  return *found;
+}
+
+}  // namespace reckon

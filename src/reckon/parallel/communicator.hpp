@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace reckon {
+
+using Bytes = std::vector<std::byte>;
+
+/// A message of fixed length to or from one other rank, for repeated exchange.
+struct Channel {
+  int peer{0};
+  std::span<std::byte> buffer;
+};
+
+/// A set of channels that is used step after step: buffers stay where they are, only what they hold
+/// changes. Between start() and finish() buffers must not be touched.
+class RepeatedExchange {
+ public:
+  RepeatedExchange();
+  ~RepeatedExchange();
+  RepeatedExchange(RepeatedExchange&&) noexcept;
+  RepeatedExchange& operator=(RepeatedExchange&&) noexcept;
+
+  void start();
+  void finish();
+
+  struct Impl;
+
+ private:
+  friend class Communicator;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The ranks that run one simulation together: MPI, or a single rank without it. Passed in, never
+/// looked up. Every function but rank() and size() is collective: all ranks call it in the same
+/// order. Copies mean the same ranks.
+class Communicator {
+ public:
+  /// One rank, alone. Works with and without MPI.
+  Communicator();
+
+  [[nodiscard]] int rank() const;
+  [[nodiscard]] int size() const;
+  [[nodiscard]] bool is_root() const { return rank() == 0; }
+
+  void barrier() const;
+  /// Replaces each element by its sum over all ranks.
+  void sum(std::span<std::int64_t> values) const;
+  /// Replaces each word by the bitwise or over all ranks: joins arrays whose parts no two ranks
+  /// both fill, without rounding anything.
+  void join(std::span<std::uint64_t> words) const;
+  [[nodiscard]] double max(double value) const;
+  [[nodiscard]] bool any(bool value) const;
+
+  /// What `root` passes, on all ranks.
+  [[nodiscard]] Bytes broadcast(Bytes bytes, int root = 0) const;
+  /// On the root: what each rank passes, by rank. Elsewhere: empty.
+  [[nodiscard]] std::vector<Bytes> gather(const Bytes& bytes) const;
+  /// outgoing[r] goes to rank r; returns what came from each rank (Alltoall of the lengths, then
+  /// Alltoallv of the contents).
+  [[nodiscard]] std::vector<Bytes> all_to_all(const std::vector<Bytes>& outgoing) const;
+
+  /// Prepares messages to be sent again and again. Two ranks must name each other in the same
+  /// order; `tag` tells exchanges apart.
+  [[nodiscard]] RepeatedExchange repeated_exchange(std::span<const Channel> send,
+                                                   std::span<const Channel> receive, int tag) const;
+
+  /// Ends all ranks at once with this exit code. Without MPI: ends the process.
+  [[noreturn]] void abort(int exit_code) const;
+
+  struct Impl;
+
+ private:
+  friend class ParallelSession;
+  explicit Communicator(std::shared_ptr<const Impl> impl) : impl_{std::move(impl)} {}
+  std::shared_ptr<const Impl> impl_;
+};
+
+/// Starts and ends MPI. One per process, in main. Without MPI it does nothing.
+class ParallelSession {
+ public:
+  ParallelSession(int& argc, char**& argv);
+  ~ParallelSession();
+  ParallelSession(const ParallelSession&) = delete;
+  ParallelSession& operator=(const ParallelSession&) = delete;
+
+  /// All ranks that were started together.
+  [[nodiscard]] const Communicator& world() const { return world_; }
+  /// "Open MPI 4.1.4", "none".
+  [[nodiscard]] static std::string_view library();
+
+ private:
+  Communicator world_;
+};
+
+}  // namespace reckon

@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <mpi.h>
+
+#include <array>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "reckon/core/error.hpp"
+#include "reckon/parallel/communicator.hpp"
+
+namespace reckon {
+
+/// No impl: one rank, alone, and no MPI call is made, so a plain serial run needs no MPI start.
+struct Communicator::Impl {
+  MPI_Comm handle;
+  int rank;
+  int size;
+};
+
+struct RepeatedExchange::Impl {
+  std::vector<MPI_Request> requests;
+
+  Impl() = default;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() {
+    for (MPI_Request& request : requests) MPI_Request_free(&request);
+  }
+};
+
+RepeatedExchange::RepeatedExchange() = default;
+RepeatedExchange::~RepeatedExchange() = default;
+RepeatedExchange::RepeatedExchange(RepeatedExchange&&) noexcept = default;
+RepeatedExchange& RepeatedExchange::operator=(RepeatedExchange&&) noexcept = default;
+
+void RepeatedExchange::start() {
+  if (!impl_ || impl_->requests.empty()) return;
+  MPI_Startall(static_cast<int>(impl_->requests.size()), impl_->requests.data());
+}
+
+void RepeatedExchange::finish() {
+  if (!impl_ || impl_->requests.empty()) return;
+  MPI_Waitall(static_cast<int>(impl_->requests.size()), impl_->requests.data(),
+              MPI_STATUSES_IGNORE);
+}
+
+Communicator::Communicator() = default;
+int Communicator::rank() const { return impl_ ? impl_->rank : 0; }
+int Communicator::size() const { return impl_ ? impl_->size : 1; }
+
+void Communicator::barrier() const {
+  if (impl_) MPI_Barrier(impl_->handle);
+}
+
+void Communicator::sum(std::span<std::int64_t> values) const {
+  if (!impl_) return;
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T, MPI_SUM,
+                impl_->handle);
+}
+
+void Communicator::join(std::span<std::uint64_t> words) const {
+  if (!impl_) return;
+  MPI_Allreduce(MPI_IN_PLACE, words.data(), static_cast<int>(words.size()), MPI_UINT64_T, MPI_BOR,
+                impl_->handle);
+}
+
+double Communicator::max(double value) const {
+  if (impl_) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, impl_->handle);
+  return value;
+}
+
+bool Communicator::any(bool value) const {
+  int flag = value ? 1 : 0;
+  if (impl_) MPI_Allreduce(MPI_IN_PLACE, &flag, 1, MPI_INT, MPI_MAX, impl_->handle);
+  return flag != 0;
+}
+
+namespace {
+
+/// MPI 3 counts bytes in an int.
+int checked_count(std::size_t bytes) {
+  if (bytes > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+    throw Error{{.problem = "a message between ranks is too large",
+                 .reason = std::to_string(bytes) + " bytes, MPI counts up to 2147483647",
+                 .fix = "Use more ranks, so that each holds fewer grains."}};
+  }
+  return static_cast<int>(bytes);
+}
+
+}  // namespace
+
+Bytes Communicator::broadcast(Bytes bytes, int root) const {
+  if (!impl_) return bytes;
+  std::int64_t length = static_cast<std::int64_t>(bytes.size());
+  MPI_Bcast(&length, 1, MPI_INT64_T, root, impl_->handle);
+  bytes.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(bytes.data(), checked_count(bytes.size()), MPI_BYTE, root, impl_->handle);
+  return bytes;
+}
+
+std::vector<Bytes> Communicator::gather(const Bytes& bytes) const {
+  if (!impl_) return {bytes};
+  std::vector<Bytes> outgoing(static_cast<std::size_t>(size()));
+  outgoing[0] = bytes;
+  std::vector<Bytes> all = all_to_all(outgoing);
+  if (!is_root()) all.clear();
+  return all;
+}
+
+std::vector<Bytes> Communicator::all_to_all(const std::vector<Bytes>& outgoing) const {
+  if (!impl_) return outgoing;
+  const auto ranks = static_cast<std::size_t>(size());
+  std::vector<int> send_counts(ranks);
+  std::vector<int> receive_counts(ranks);
+  std::size_t total_sent = 0;
+  for (std::size_t r = 0; r < ranks; ++r) {
+    send_counts[r] = checked_count(outgoing[r].size());
+    total_sent += outgoing[r].size();
+  }
+  static_cast<void>(checked_count(total_sent));
+  MPI_Alltoall(send_counts.data(), 1, MPI_INT, receive_counts.data(), 1, MPI_INT, impl_->handle);
+
+  std::vector<int> send_offsets(ranks, 0);
+  std::vector<int> receive_offsets(ranks, 0);
+  std::partial_sum(send_counts.begin(), send_counts.end() - 1, send_offsets.begin() + 1);
+  std::partial_sum(receive_counts.begin(), receive_counts.end() - 1, receive_offsets.begin() + 1);
+  Bytes sent;
+  sent.reserve(total_sent);
+  for (const Bytes& bytes : outgoing) sent.insert(sent.end(), bytes.begin(), bytes.end());
+  Bytes received(static_cast<std::size_t>(receive_offsets.back()) +
+                 static_cast<std::size_t>(receive_counts.back()));
+  MPI_Alltoallv(sent.data(), send_counts.data(), send_offsets.data(), MPI_BYTE, received.data(),
+                receive_counts.data(), receive_offsets.data(), MPI_BYTE, impl_->handle);
+
+  std::vector<Bytes> incoming(ranks);
+  for (std::size_t r = 0; r < ranks; ++r) {
+    const auto first = received.begin() + receive_offsets[r];
+    incoming[r].assign(first, first + receive_counts[r]);
+  }
+  return incoming;
+}
+
+RepeatedExchange Communicator::repeated_exchange(std::span<const Channel> send,
+                                                 std::span<const Channel> receive, int tag) const {
+  RepeatedExchange exchange;
+  if (!impl_) return exchange;
+  exchange.impl_ = std::make_unique<RepeatedExchange::Impl>();
+  auto& requests = exchange.impl_->requests;
+  for (const Channel& channel : receive) {
+    requests.push_back(MPI_REQUEST_NULL);
+    MPI_Recv_init(channel.buffer.data(), checked_count(channel.buffer.size()), MPI_BYTE,
+                  channel.peer, tag, impl_->handle, &requests.back());
+  }
+  for (const Channel& channel : send) {
+    requests.push_back(MPI_REQUEST_NULL);
+    MPI_Send_init(channel.buffer.data(), checked_count(channel.buffer.size()), MPI_BYTE,
+                  channel.peer, tag, impl_->handle, &requests.back());
+  }
+  return exchange;
+}
+
+void Communicator::abort(int exit_code) const {
+  if (impl_) MPI_Abort(impl_->handle, exit_code);
+  std::_Exit(exit_code);
+}
+
+ParallelSession::ParallelSession(int& argc, char**& argv) {
+  int provided = 0;
+  // Threads compute, only the main thread speaks to other ranks.
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  auto impl = std::make_shared<Communicator::Impl>();
+  impl->handle = MPI_COMM_WORLD;
+  MPI_Comm_rank(MPI_COMM_WORLD, &impl->rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &impl->size);
+  world_ = Communicator{std::move(impl)};
+}
+
+ParallelSession::~ParallelSession() { MPI_Finalize(); }
+
+std::string_view ParallelSession::library() {
+  static const std::string text = [] {
+    std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> buffer{};
+    int length = 0;
+    MPI_Get_library_version(buffer.data(), &length);
+    const std::string all{buffer.data(), static_cast<std::size_t>(length)};
+    return all.substr(0, all.find_first_of(",\n"));
+  }();
+  return text;
+}
+
+}  // namespace reckon

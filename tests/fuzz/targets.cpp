@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "targets.hpp"
+#include "target.hpp"
+
+namespace reckon::fuzz {
+
+std::vector<Target> all_targets() {
+  return {scene_target(), stl_target(), obj_target(), ply_target(), spherical_harmonics_target()};
+}
+
+}  // namespace reckon::fuzz

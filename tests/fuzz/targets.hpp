@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "target.hpp"
+
+namespace reckon::fuzz {
+
+[[nodiscard]] Target scene_target();
+[[nodiscard]] Target stl_target();
+[[nodiscard]] Target obj_target();
+[[nodiscard]] Target ply_target();
+[[nodiscard]] Target spherical_harmonics_target();
+
+}  // namespace reckon::fuzz
