@@ -29,12 +29,26 @@ struct BorderGrain {
   GhostState state;
 };
 
-/// Ghosts come in stages, each of which may pass on what earlier stages brought. A local index
+/// The grains of other ranks that this rank needs to see, kept up to date step by step.
+class Ghosts {
+ public:
+  virtual ~Ghosts() = default;
+  [[nodiscard]] virtual std::span<const BorderGrain> ghosts() const = 0;
+  /// Starts to send the owned grains' new states; `state_of` gives them by local index. Other work
+  /// may go on until finish().
+  virtual void start(const std::function<GhostState(std::uint32_t)>& state_of) = 0;
+  /// Ends the exchange. `ghosts()` then hold their new states.
+  virtual void finish() = 0;
+  [[nodiscard]] virtual std::uint64_t bytes_per_update() const = 0;
+  [[nodiscard]] virtual std::uint64_t messages_per_update() const = 0;
+};
+
+/// Ghosts that come in stages, each of which may pass on what earlier stages brought. A local index
 /// counts owned grains first, then ghosts in the order in which they came.
 ///
 ///   owned 0 ... n-1 | ghosts of stage 0 | of stage 1 | ...
 ///                      \__ sent on by stage 1, as the paper's y phase sends on the x phase's
-class GhostExchange {
+class GhostExchange final : public Ghosts {
  public:
   /// What one stage sends: to each peer the local indices of grains. Both sides name each other.
   struct Sends {
@@ -44,24 +58,19 @@ class GhostExchange {
   /// Chooses what the next stage sends, from all grains known so far.
   using Choose = std::function<Sends(std::span<const BorderGrain> known)>;
 
-  GhostExchange() = default;
   /// Collective among peers. `owned` are this rank's grains; runs the stages once and remembers
   /// them. `ghosts()` are the border grains that came.
   GhostExchange(const Communicator& ranks, std::vector<BorderGrain> owned,
                 std::span<const Choose> stages);
 
-  [[nodiscard]] std::span<const BorderGrain> ghosts() const {
+  [[nodiscard]] std::span<const BorderGrain> ghosts() const override {
     return std::span{known_}.subspan(owned_count_);
   }
 
-  /// Starts to send the owned grains' new states (the first stage); `state_of` gives them by local
-  /// index. Other work may go on until finish().
-  void start(const std::function<GhostState(std::uint32_t)>& state_of);
-  /// Ends the exchange. `ghosts()` then hold their new states.
-  void finish();
-
-  [[nodiscard]] std::uint64_t bytes_per_update() const { return bytes_per_update_; }
-  [[nodiscard]] std::uint64_t messages_per_update() const { return messages_per_update_; }
+  void start(const std::function<GhostState(std::uint32_t)>& state_of) override;
+  void finish() override;
+  [[nodiscard]] std::uint64_t bytes_per_update() const override { return bytes_per_update_; }
+  [[nodiscard]] std::uint64_t messages_per_update() const override { return messages_per_update_; }
 
  private:
   struct Stage {
