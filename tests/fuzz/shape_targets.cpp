@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
+#include <stdexcept>
 
 #include "reckon/avatar/geodesic_sphere.hpp"
 #include "reckon/avatar/legacy_morphology.hpp"
@@ -18,6 +19,8 @@ namespace {
 Shape small_ball(const std::string& name) {
   return build_shape(geodesic_sphere(2), {.voxels_per_diameter = 10, .node_count = 12}, name);
 }
+
+std::string small_morphology() { return format_legacy_morphology(to_legacy(small_ball("ball"))); }
 
 }  // namespace
 
@@ -43,21 +46,25 @@ Target shape_library_target() {
 }
 
 Target legacy_morphology_target() {
-  return {
-      .name = "legacy_morphology",
-      .valid_inputs =
-          [] {
-            return std::vector<std::string>{
-                format_legacy_morphology(to_legacy(small_ball("ball")))};
-          },
-      .read =
-          [](const std::string& input) {
-            const LegacyMorphology grain = parse_legacy_morphology(input, "morph_1.dat");
-            for (const LegacyRadius radius : {LegacyRadius::as_in_file, LegacyRadius::enclosing}) {
-              check_shape(to_shape(grain, 1e-5, "morph_1", radius), "morph_1.dat");
-            }
-          },
-      .cost = 10};
+  return {.name = "legacy_morphology",
+          .valid_inputs = [] { return std::vector<std::string>{small_morphology()}; },
+          .read =
+              [](const std::string& input) {
+                const LegacyMorphology grain = parse_legacy_morphology(input, "morph_1.dat");
+                if (format_legacy_morphology(grain).empty()) throw std::logic_error("lost");
+              },
+          .cost = 4};
+}
+
+Target legacy_shape_target() {
+  return {.name = "legacy_shape",
+          .valid_inputs = [] { return std::vector<std::string>{small_morphology()}; },
+          .read =
+              [](const std::string& input) {
+                const LegacyMorphology grain = parse_legacy_morphology(input, "morph_1.dat");
+                check_shape(to_shape(grain, 1e-5, "morph_1", LegacyRadius::enclosing), "morph_1");
+              },
+          .cost = 80};
 }
 
 Target legacy_positions_target() {

@@ -12,6 +12,7 @@ std::vector<Target> all_targets() {
           ply_target(),
           spherical_harmonics_target(),
           legacy_morphology_target(),
+          legacy_shape_target(),
           legacy_positions_target(),
           legacy_rotations_target(),
           level_set_text_target(),

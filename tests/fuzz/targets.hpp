@@ -12,6 +12,7 @@ namespace reckon::fuzz {
 [[nodiscard]] Target ply_target();
 [[nodiscard]] Target spherical_harmonics_target();
 [[nodiscard]] Target legacy_morphology_target();
+[[nodiscard]] Target legacy_shape_target();
 [[nodiscard]] Target legacy_positions_target();
 [[nodiscard]] Target legacy_rotations_target();
 [[nodiscard]] Target level_set_text_target();
