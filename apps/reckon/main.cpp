@@ -7,12 +7,15 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "check_command.hpp"
 #include "diff_command.hpp"
 #include "exit_codes.hpp"
+#include "grains_command.hpp"
 #include "reckon/core/build_info.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/io/nearest_name.hpp"
 #include "reckon/io/run.hpp"
 #include "reference_command.hpp"
 #include "run_command.hpp"
@@ -32,6 +35,22 @@ std::string help_of(const CLI::App& app) {
   return used.empty() ? "reckon --help" : fmt::format("reckon {} --help", used.front()->get_name());
 }
 
+/// CLI11 would only say that a command is missing; a typo deserves the name that was meant.
+void require_known_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == argv[1]) return;
+    names.push_back(command->get_name());
+  }
+  const auto near = reckon::nearest_name(argv[1], names);
+  throw reckon::Error{{.place = {},
+                       .problem = fmt::format("there is no command \"{}\"", argv[1]),
+                       .reason = {},
+                       .fix = near ? fmt::format("Did you mean `reckon {}`?", *near)
+                                   : fmt::format("There are {}.", fmt::join(names, ", "))}};
+}
+
 int complain(const std::string& problem, int code) {
   fmt::print(stderr, "reckon: error: {}\n", problem);
   return code;
@@ -48,6 +67,7 @@ int main(int argc, char** argv) {
       "reckon"};
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
+  add_grains_command(app);
   add_check_command(app);
   add_run_command(app);
   add_diff_command(app);
@@ -55,6 +75,7 @@ int main(int argc, char** argv) {
   add_reference_command(app);
   app.footer(std::string{"`reckon COMMAND --help` has examples.\n\n"} + exit_code_footer);
   try {
+    require_known_command(app, argc, argv);
     app.parse(argc, argv);
     return success;
   } catch (const CLI::RuntimeError& end) {

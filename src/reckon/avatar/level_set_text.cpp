@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
 #include "reckon/avatar/text_reader.hpp"
 
 namespace reckon {
@@ -40,7 +43,12 @@ LevelSet parse_level_set_text(std::string_view text, const std::string& name,
   for (int axis = 0; axis < 3; ++axis) grid.origin_body[axis] = unit_in_metres * next("origin");
   grid.values.reserve(count);
   for (std::uint64_t v = 0; v < count; ++v) {
-    grid.values.push_back(static_cast<float>(unit_in_metres * next("grid value")));
+    const double value = unit_in_metres * next("grid value");
+    if (!(std::abs(value) <= std::numeric_limits<float>::max())) {
+      reader.fail("a grid value is too large", fmt::format("{} m was found", value),
+                  "Check the unit.");
+    }
+    grid.values.push_back(static_cast<float>(value));
   }
   if (const std::string_view rest = reader.next_token_anywhere(); !rest.empty()) {
     reader.fail("there is more after the last grid value", "found " + in_quotes(rest),

@@ -16,7 +16,6 @@
 #include "reckon/avatar/grid_mass.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/core/random.hpp"
-#include "reckon/parallel/threads.hpp"
 #include "test_meshes.hpp"
 
 namespace reckon {
@@ -148,18 +147,6 @@ std::string shape_name(const ::testing::TestParamInfo<int>& parameter) {
   return names[parameter.param];
 }
 INSTANTIATE_TEST_SUITE_P(Sources, EveryShape, ::testing::Range(0, 5), shape_name);
-
-TEST(ShapeBuilder, IsBitIdenticalForAnyThreadCount) {
-  const TriangleMesh mesh = ellipsoid();
-  const int threads = thread_count();
-  std::vector<std::uint64_t> digests;
-  for (const int count : {1, 2, 3, 7}) {
-    set_thread_count(count);
-    digests.push_back(shape_digest(build_shape(mesh, {}, "ellipsoid")));
-  }
-  set_thread_count(threads);
-  for (const std::uint64_t digest : digests) EXPECT_EQ(digest, digests[0]);
-}
 
 TEST(ShapeBuilder, ResolutionMeansWhatItSays) {
   const TriangleMesh mesh = ellipsoid();

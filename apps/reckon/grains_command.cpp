@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "grains_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "grains_parts.hpp"
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/io/human.hpp"
+#include "reckon/io/units.hpp"
+
+namespace reckon::app {
+namespace {
+
+constexpr Dimension length_dimension{.mass = 0, .length = 1, .time = 0, .angle = 0};
+constexpr double redraw_interval = 0.2;  // [s]
+
+[[noreturn]] void refuse(const std::string& option, std::string problem, std::string reason,
+                         std::string fix) {
+  throw Error{{.place = option,
+               .problem = std::move(problem),
+               .reason = std::move(reason),
+               .fix = std::move(fix)}};
+}
+
+double parse_positive_number(const std::string& option, std::string_view text) {
+  const Quantity quantity = parse_quantity(text);
+  if (quantity.dimension != Dimension{} || !(quantity.value > 0)) {
+    refuse(option, fmt::format("'{}' is not a positive number", text), {}, "Give it without unit.");
+  }
+  return quantity.value;
+}
+
+}  // namespace
+
+double parse_length(const std::string& option, std::string_view text) {
+  const Quantity quantity = parse_quantity(text);
+  if (quantity.dimension == Dimension{}) {
+    refuse(option, fmt::format("'{}' has no unit", text), "it is a length",
+           fmt::format("Write {}mm or {}m, say.", text, text));
+  }
+  if (quantity.dimension != length_dimension || !(quantity.value > 0)) {
+    refuse(option, fmt::format("'{}' is not a length above zero", text), {},
+           "Give a length such as 0.2mm.");
+  }
+  return quantity.value;
+}
+
+std::vector<double> parse_lengths(const std::string& option, std::string_view text,
+                                  std::size_t count, std::size_t total) {
+  std::vector<double> values;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string_view part = text.substr(begin, end - begin);
+    values.push_back(values.size() < count ? parse_length(option, part)
+                                           : parse_positive_number(option, part));
+    begin = end + 1;
+  }
+  if (values.size() != total) {
+    refuse(option, fmt::format("'{}' has {} numbers", text, values.size()),
+           fmt::format("{} are needed", total), "Separate them by commas, without blanks.");
+  }
+  return values;
+}
+
+double parse_length_unit(const std::string& option, const std::string& text) {
+  const Unit unit = parse_unit(text);
+  if (unit.dimension != length_dimension) {
+    refuse(option, fmt::format("'{}' is not a unit of length", text), {},
+           "Give um, mm, m or the like.");
+  }
+  return parse_quantity("1 " + text).value;
+}
+
+std::vector<const Shape*> choose_shapes(const ShapeLibrary& library,
+                                        std::span<const std::string> names) {
+  std::vector<const Shape*> chosen;
+  if (names.empty()) {
+    for (const Shape& shape : library) chosen.push_back(&shape);
+  }
+  for (const std::string& name : names) chosen.push_back(&find_shape(library, name));
+  return chosen;
+}
+
+CountDisplay::CountDisplay(std::size_t total, std::string what)
+    : total_{total},
+      what_{std::move(what)},
+      terminal_{::isatty(STDERR_FILENO) == 1},
+      start_{std::chrono::steady_clock::now()},
+      last_{start_} {}
+
+CountDisplay::~CountDisplay() {
+  if (terminal_) std::fputs("\r\033[K", stderr);
+}
+
+double CountDisplay::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void CountDisplay::show(std::size_t done) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal_ || std::chrono::duration<double>(now - last_).count() < redraw_interval) return;
+  last_ = now;
+  const double rate = static_cast<double>(done) / seconds();
+  fmt::print(stderr, "\r\033[K{} of {} {}, {:.3g} a second, {} left", done, total_, what_, rate,
+             human_duration(static_cast<double>(total_ - done) / rate));
+  std::fflush(stderr);
+}
+
+void add_grains_command(CLI::App& app) {
+  CLI::App* grains = app.add_subcommand(
+      "grains",
+      "Make shape libraries from meshes, coefficients, solids or statistics; look at them");
+  grains->require_subcommand(1);
+  add_grains_sources(*grains);
+  add_grains_legacy(*grains);
+  add_grains_info(*grains);
+  add_grains_export(*grains);
+}
+
+}  // namespace reckon::app

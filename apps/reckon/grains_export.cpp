@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grains_parts.hpp"
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/avatar/surface_extraction.hpp"
+#include "reckon/avatar/surface_files.hpp"
+#include "reckon/io/human.hpp"
+
+namespace reckon::app {
+namespace {
+
+/// A shape's name as a file name: it may hold anything, slashes included.
+std::string file_name(const std::string& name) {
+  std::string safe = name;
+  std::replace_if(
+      safe.begin(), safe.end(), [](char c) { return c == '/' || c == '\0'; }, '_');
+  return safe == "." || safe == ".." ? "_" : safe;
+}
+
+}  // namespace
+
+void add_grains_export(CLI::App& grains) {
+  struct Options {
+    std::string library;
+    std::string format{"vtp"};
+    std::string folder;
+    std::vector<std::string> names;
+  };
+  CLI::App* command = grains.add_subcommand(
+      "export", "Write the grains' surfaces, as contact sees them, for ParaView or as meshes");
+  auto options = std::make_shared<Options>();
+  command->add_option("library", options->library, "Shape library (.h5) or legacy folder")
+      ->required();
+  command->add_option("--format", options->format, "vtp: also NAME_nodes.vtp; stl: in metres")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"vtp", "stl"}));
+  command->add_option("--out", options->folder, "Folder to write to; made when missing")
+      ->required();
+  command->add_option("--shape", options->names, "Only grains of these names");
+  command->callback([=] {
+    const ShapeLibrary library = load_library(options->library);
+    const auto shapes = choose_shapes(library, options->names);
+    const std::filesystem::path folder{options->folder};
+    std::filesystem::create_directories(folder);
+    CountDisplay display{shapes.size(), "grains"};
+    std::size_t done = 0;
+    for (const Shape* shape : shapes) {
+      const std::string name = file_name(shape->name);
+      if (options->format == "stl") {
+        write_stl(folder / (name + ".stl"), extract_surface(shape->level_set), shape->name);
+      } else {
+        write_surface_vtp(folder / (name + ".vtp"), *shape);
+        write_nodes_vtp(folder / (name + "_nodes.vtp"), *shape);
+      }
+      display.show(++done);
+    }
+    fmt::print("{}: {} grains\n", options->folder, human_count(shapes.size()));
+  });
+}
+
+}  // namespace reckon::app

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/shape/shape.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace reckon::app {
+
+// The subcommands of `reckon grains`, one source file each.
+void add_grains_sources(CLI::App& grains);  ///< generate, solid, from-mesh, from-harmonics, ...
+void add_grains_legacy(CLI::App& grains);   ///< from-legacy, to-legacy
+void add_grains_info(CLI::App& grains);
+void add_grains_export(CLI::App& grains);
+
+/// A length such as "0.2mm" [m]. Throws Error naming `option` when it is no length above zero; a
+/// number without unit is refused, since nobody can tell what it means.
+[[nodiscard]] double parse_length(const std::string& option, std::string_view text);
+/// `count` lengths separated by commas, and after them pure numbers up to `total`.
+[[nodiscard]] std::vector<double> parse_lengths(const std::string& option, std::string_view text,
+                                                std::size_t count, std::size_t total);
+/// How many metres a unit of length such as "mm" has.
+[[nodiscard]] double parse_length_unit(const std::string& option, const std::string& text);
+
+/// The shapes of these names, all when there are none. Throws Error for a name that is not there.
+[[nodiscard]] std::vector<const Shape*> choose_shapes(const ShapeLibrary& library,
+                                                      std::span<const std::string> names);
+
+/// Shows how many of `total` are done, how fast, and the time left, on one line of a terminal;
+/// nothing elsewhere.
+class CountDisplay {
+ public:
+  CountDisplay(std::size_t total, std::string what);
+  ~CountDisplay();
+  CountDisplay(const CountDisplay&) = delete;
+  CountDisplay& operator=(const CountDisplay&) = delete;
+
+  void show(std::size_t done);
+  [[nodiscard]] double seconds() const;
+
+ private:
+  std::size_t total_;
+  std::string what_;
+  bool terminal_;
+  std::chrono::steady_clock::time_point start_;
+  std::chrono::steady_clock::time_point last_;
+};
+
+}  // namespace reckon::app

@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grains_parts.hpp"
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/avatar/shape_sources.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/core/file.hpp"
+#include "reckon/io/human.hpp"
+#include "reckon/parallel/threads.hpp"
+
+namespace reckon::app {
+namespace {
+
+/// What every source has in common.
+struct MakeOptions {
+  std::string output;
+  double voxels_per_diameter{20};
+  std::string voxel;
+  double node_spacing{0.1};
+  std::uint32_t nodes{0};
+  int threads{0};
+};
+
+std::shared_ptr<MakeOptions> add_make_options(CLI::App& command) {
+  auto options = std::make_shared<MakeOptions>();
+  command.add_option("-o,--output", options->output, "Shape library to write (.h5)")->required();
+  auto* per_diameter =
+      command
+          .add_option("--voxels-per-diameter", options->voxels_per_diameter,
+                      "Grid spacings along the diameter of the sphere of equal volume")
+          ->capture_default_str()
+          ->check(CLI::Range(10.0, 1000.0));
+  command.add_option("--voxel", options->voxel, "Grid spacing as a length, e.g. 25um")
+      ->excludes(per_diameter);
+  auto* spacing = command
+                      .add_option("--node-spacing", options->node_spacing,
+                                  "Root of a node's mean area, in diameters")
+                      ->capture_default_str()
+                      ->check(CLI::Range(0.005, 0.5));
+  command.add_option("--nodes", options->nodes, "Surface nodes per grain, whatever its size")
+      ->excludes(spacing)
+      ->check(CLI::Range(4, 10000000));
+  command.add_option("--threads", options->threads, "Threads (default: all)")
+      ->check(CLI::Range(1, 4096));
+  return options;
+}
+
+ShapeResolution resolution_of(const MakeOptions& options) {
+  ShapeResolution resolution;
+  resolution.voxels_per_diameter = options.voxels_per_diameter;
+  resolution.node_spacing = options.node_spacing;
+  if (!options.voxel.empty()) resolution.voxel_size = parse_length("--voxel", options.voxel);
+  if (options.nodes > 0) resolution.node_count = options.nodes;
+  return resolution;
+}
+
+void make(const std::vector<ShapeSource>& sources, const MakeOptions& options) {
+  if (options.threads > 0) set_thread_count(options.threads);
+  const ShapeResolution resolution = resolution_of(options);
+  (void)PendingFile{options.output};  // finds a missing folder before the work, not after it
+  double seconds = 0;
+  ShapeLibrary library;
+  {
+    CountDisplay display{sources.size(), "grains"};
+    library = build_library(sources, resolution, [&](std::size_t done) { display.show(done); });
+    seconds = display.seconds();
+  }
+  save_library(options.output, library);
+  fmt::print("{}: {} {}, {}, {}\n", options.output, human_count(library.size()),
+             library.size() == 1 ? "grain" : "grains",
+             human_bytes(std::filesystem::file_size(options.output)), human_duration(seconds));
+}
+
+/// Adds a subcommand that turns files into shapes, each read in a unit of length.
+void add_from_files(CLI::App& grains, const char* name, const char* description,
+                    std::function<ShapeSource(const std::string& file, double unit)> source) {
+  CLI::App* command = grains.add_subcommand(name, description);
+  auto files = std::make_shared<std::vector<std::string>>();
+  auto unit = std::make_shared<std::string>();
+  command->add_option("files", *files, "Files, one grain each; a grain is named after its file")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--unit", *unit, "Unit of the numbers in the files, e.g. mm")->required();
+  const auto options = add_make_options(*command);
+  command->callback([=] {
+    const double metres = parse_length_unit("--unit", *unit);
+    std::vector<ShapeSource> sources;
+    for (const std::string& file : *files) sources.push_back(source(file, metres));
+    make(sources, *options);
+  });
+}
+
+void add_from_harmonics(CLI::App& grains) {
+  CLI::App* command = grains.add_subcommand(
+      "from-harmonics", "Grains from spherical-harmonic coefficients, lines `n m Re Im`");
+  struct Options {
+    std::vector<std::string> files;
+    std::string unit;
+    std::uint32_t degree{0};
+    std::string table;
+  };
+  auto own = std::make_shared<Options>();
+  command->add_option("files", own->files, "Files, one grain each; a grain is named after its file")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--unit", own->unit, "Unit of the coefficients, e.g. mm")->required();
+  auto* degree =
+      command->add_option("--degree", own->degree, "Cut all grains off above this degree")
+          ->check(CLI::Range(1, 512));
+  command
+      ->add_option("--degree-table", own->table,
+                   "Table whose columns Name and Nnn give each file its degree")
+      ->excludes(degree)
+      ->check(CLI::ExistingFile);
+  const auto options = add_make_options(*command);
+  command->callback([=] {
+    const double metres = parse_length_unit("--unit", own->unit);
+    std::map<std::string, std::uint32_t> degrees;
+    if (!own->table.empty()) degrees = parse_degree_table(read_file(own->table), own->table);
+    std::vector<ShapeSource> sources;
+    for (const std::string& file : own->files) {
+      std::optional<std::uint32_t> limit;
+      if (own->degree > 0) limit = own->degree;
+      if (!own->table.empty()) {
+        const auto found = degrees.find(std::filesystem::path{file}.filename().string());
+        if (found == degrees.end()) {
+          throw Error{{.place = own->table,
+                       .problem = "has no line for " + file,
+                       .reason = "the column Name holds file names without folders",
+                       .fix = "Add a line, or use --degree."}};
+        }
+        limit = found->second;
+      }
+      sources.push_back(harmonics_file_source(file, metres, limit));
+    }
+    make(sources, *options);
+  });
+}
+
+struct SolidOptions {
+  std::vector<std::string> sphere;
+  std::vector<std::string> ellipsoid;
+  std::vector<std::string> superellipsoid;
+  std::vector<std::string> box;
+  std::vector<std::string> cylinder;
+};
+
+std::vector<ShapeSource> solid_sources(const SolidOptions& own) {
+  std::vector<ShapeSource> sources;
+  const auto add_all = [&](const std::vector<std::string>& texts, const std::string& kind,
+                           std::size_t lengths, std::size_t numbers, auto&& mesh) {
+    for (std::size_t n = 0; n < texts.size(); ++n) {
+      const auto v = parse_lengths("--" + kind, texts[n], lengths, numbers);
+      double extent = 0;
+      for (std::size_t l = 0; l < lengths; ++l) extent = std::max(extent, 2 * v[l]);
+      const std::string name = texts.size() == 1 ? kind : fmt::format("{}_{}", kind, n + 1);
+      sources.push_back(
+          solid_source(name, extent, [v, mesh](double edge) { return mesh(v, edge); }));
+    }
+  };
+  using Values = std::vector<double>;
+  add_all(own.sphere, "sphere", 1, 1,
+          [](const Values& v, double edge) { return sphere_mesh(v[0], edge); });
+  add_all(own.ellipsoid, "ellipsoid", 3, 3, [](const Values& v, double edge) {
+    return ellipsoid_mesh({v[0], v[1], v[2]}, edge);
+  });
+  add_all(own.superellipsoid, "superellipsoid", 3, 5, [](const Values& v, double edge) {
+    return superellipsoid_mesh({{v[0], v[1], v[2]}, v[3], v[4]}, edge);
+  });
+  add_all(own.box, "box", 3, 3, [](const Values& v, double edge) {
+    return box_mesh({v[0] / 2, v[1] / 2, v[2] / 2}, edge);
+  });
+  add_all(own.cylinder, "cylinder", 2, 2,
+          [](const Values& v, double edge) { return cylinder_mesh(v[0], v[1] / 2, edge); });
+  return sources;
+}
+
+void add_solid(CLI::App& grains) {
+  CLI::App* command =
+      grains.add_subcommand("solid", "Grains of simple form; each option may be given repeatedly");
+  auto own = std::make_shared<SolidOptions>();
+  const auto add = [&](const char* name, std::vector<std::string>& values, const char* form,
+                       const char* what) {
+    command->add_option(name, values, what)
+        ->type_name(form)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  };
+  add("--sphere", own->sphere, "R", "Radius, e.g. 1mm");
+  add("--ellipsoid", own->ellipsoid, "A,B,C", "Half axes, e.g. 1mm,0.8mm,0.5mm");
+  add("--superellipsoid", own->superellipsoid, "A,B,C,EXY,EZ",
+      "Half extents and the exponents across and along z (1: round, towards 0: boxy)");
+  add("--box", own->box, "LX,LY,LZ", "Edge lengths");
+  add("--cylinder", own->cylinder, "R,L", "Radius and length");
+  const auto options = add_make_options(*command);
+  command->callback([=] {
+    const auto sources = solid_sources(*own);
+    if (sources.empty()) {
+      throw Error{{.place = "reckon grains solid",
+                   .problem = "no solid is given",
+                   .reason = {},
+                   .fix = "Give --sphere 1mm, for one."}};
+    }
+    make(sources, *options);
+  });
+}
+
+struct GenerateOptions {
+  std::uint32_t count{0};
+  std::uint64_t seed{1};
+  std::string median{"1mm"};
+  std::string smallest;
+  std::string largest;
+  GrainStatistics statistics;
+};
+
+void add_generate(CLI::App& grains) {
+  CLI::App* command =
+      grains.add_subcommand("generate", "Random sand-like grains with given statistics");
+  auto own = std::make_shared<GenerateOptions>();
+  GrainStatistics& s = own->statistics;
+  command->add_option("--count", own->count, "Number of grains")
+      ->required()
+      ->check(CLI::Range(1U, 10000000U));
+  command->add_option("--seed", own->seed, "The same seed gives the same grains")
+      ->capture_default_str();
+  const auto number = [&](const char* name, auto& value, const char* what) {
+    command->add_option(name, value, what)->capture_default_str();
+  };
+  number("--d50", own->median, "Median diameter of the sphere of equal volume");
+  number("--log-deviation", s.log_deviation, "Standard deviation of ln(diameter)");
+  command->add_option("--smallest", own->smallest, "Least diameter");
+  command->add_option("--largest", own->largest, "Largest diameter");
+  number("--elongation", s.elongation.mean, "Mean width / length");
+  number("--elongation-deviation", s.elongation.deviation, "Its standard deviation");
+  number("--flatness", s.flatness.mean, "Mean thickness / width");
+  number("--flatness-deviation", s.flatness.deviation, "Its standard deviation");
+  number("--fewest-faces", s.fewest_faces, "Faces that a grain is cut by, at least");
+  number("--most-faces", s.most_faces, "and at most");
+  number("--face-irregularity", s.face_irregularity, "Part of the radius that a face cuts in");
+  number("--roundness", s.roundness.mean, "Mean corner radius / inscribed radius");
+  number("--roundness-deviation", s.roundness.deviation, "Its standard deviation");
+  number("--roughness", s.roughness, "Root mean square of the surface's relief / radius");
+  number("--hurst", s.hurst, "Hurst exponent of the relief; larger is smoother");
+  number("--lowest-degree", s.lowest_degree, "Longest wave of the relief: 2 pi radius / degree");
+  number("--highest-degree", s.highest_degree, "Shortest wave of the relief");
+  const auto options = add_make_options(*command);
+  command->callback([=] {
+    GrainStatistics statistics = own->statistics;
+    statistics.median_diameter = parse_length("--d50", own->median);
+    if (!own->smallest.empty()) {
+      statistics.smallest_diameter = parse_length("--smallest", own->smallest);
+    }
+    if (!own->largest.empty()) {
+      statistics.largest_diameter = parse_length("--largest", own->largest);
+    }
+    statistics.validate();
+    std::vector<ShapeSource> sources;
+    for (std::uint32_t n = 0; n < own->count; ++n) {
+      sources.push_back(generated_source(statistics, own->seed, n));
+    }
+    make(sources, *options);
+  });
+}
+
+}  // namespace
+
+void add_grains_sources(CLI::App& grains) {
+  add_generate(grains);
+  add_solid(grains);
+  add_from_files(grains, "from-mesh", "Grains from closed surfaces: STL, OBJ or PLY files",
+                 [](const std::string& file, double unit) { return mesh_file_source(file, unit); });
+  add_from_harmonics(grains);
+  add_from_files(
+      grains, "from-grid", "Grains from signed-distance grids in LAMMPS-style text",
+      [](const std::string& file, double unit) { return level_set_file_source(file, unit); });
+}
+
+}  // namespace reckon::app

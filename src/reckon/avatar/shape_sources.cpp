@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/avatar/shape_sources.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "reckon/avatar/geodesic_sphere.hpp"
+#include "reckon/avatar/level_set_text.hpp"
+#include "reckon/avatar/mesh_reader.hpp"
+#include "reckon/avatar/mesh_validation.hpp"
+#include "reckon/avatar/spherical_harmonics.hpp"
+#include "reckon/avatar/surface_extraction.hpp"
+#include "reckon/avatar/text_reader.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/math/portable.hpp"
+#include "reckon/parallel/threads.hpp"
+
+namespace reckon {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double edges_per_voxel = 2;
+constexpr double edges_per_wavelength = 6;
+constexpr std::uint32_t first_look = 24;  // geodesic frequency that suffices to know a size
+
+double diameter_of(const TriangleMesh& mesh) {
+  return portable::cbrt(6 * solid_properties(mesh).volume / pi);
+}
+
+double edge_for(const ShapeResolution& resolution, double diameter) {
+  return resolution.voxel_size.value_or(diameter / resolution.voxels_per_diameter) /
+         edges_per_voxel;
+}
+
+/// The division of a star-shaped grain's geodesic sphere for a resolution, and for wavelengths down
+/// to 2 pi R / degree.
+std::uint32_t frequency_for(const ShapeResolution& resolution, double diameter,
+                            std::uint32_t degree) {
+  const double shortest_wave = pi * diameter / std::max(degree, 1U);
+  const double edge =
+      std::min(edge_for(resolution, diameter), shortest_wave / edges_per_wavelength);
+  return geodesic_frequency(diameter / 2, edge);
+}
+
+}  // namespace
+
+ShapeSource mesh_file_source(const std::filesystem::path& file, double unit_in_metres) {
+  return {file.stem().string(), [file, unit_in_metres](const ShapeResolution&) {
+            TriangleMesh mesh = read_mesh(file, unit_in_metres);
+            require_closed_surface(mesh, file.string());
+            return mesh;
+          }};
+}
+
+ShapeSource harmonics_file_source(const std::filesystem::path& file, double unit_in_metres,
+                                  std::optional<std::uint32_t> degree) {
+  return {file.stem().string(), [=](const ShapeResolution& resolution) {
+            SphericalHarmonicGrain grain = read_spherical_harmonics(file, unit_in_metres);
+            if (degree) grain = truncated(std::move(grain), *degree);
+            const double diameter = diameter_of(surface_mesh(grain, first_look));
+            return surface_mesh(grain, frequency_for(resolution, diameter, grain.degree));
+          }};
+}
+
+ShapeSource level_set_file_source(const std::filesystem::path& file, double unit_in_metres) {
+  return {file.stem().string(), [file, unit_in_metres](const ShapeResolution&) {
+            const LevelSet grid =
+                parse_level_set_text(read_file(file), file.string(), unit_in_metres);
+            TriangleMesh mesh = extract_surface(grid);
+            require_closed_surface(mesh, file.string());
+            return mesh;
+          }};
+}
+
+ShapeSource solid_source(std::string name, double extent,
+                         std::function<TriangleMesh(double target_edge)> mesh) {
+  return {std::move(name), [extent, mesh = std::move(mesh)](const ShapeResolution& resolution) {
+            const double coarse_edge = extent / 20;
+            const double diameter = diameter_of(mesh(coarse_edge));
+            return mesh(std::min(coarse_edge, edge_for(resolution, diameter)));
+          }};
+}
+
+ShapeSource generated_source(const GrainStatistics& statistics, std::uint64_t seed,
+                             std::uint64_t index) {
+  return {fmt::format("grain_{}", index + 1), [=](const ShapeResolution& resolution) {
+            const std::uint32_t degree = statistics.highest_degree;
+            const std::uint32_t look = std::max(first_look, degree);
+            const double diameter = diameter_of(generate_grain(statistics, seed, index, look));
+            return generate_grain(statistics, seed, index,
+                                  std::max(frequency_for(resolution, diameter, degree), degree));
+          }};
+}
+
+std::map<std::string, std::uint32_t> parse_degree_table(std::string_view text,
+                                                        const std::string& name) {
+  TextReader reader{text, name};
+  constexpr std::size_t missing = ~std::size_t{0};
+  std::size_t name_column = missing;
+  std::size_t degree_column = missing;
+  reader.next_line();
+  std::size_t column = 0;
+  for (auto token = reader.next_token(); !token.empty(); token = reader.next_token(), ++column) {
+    if (token == "Name") name_column = column;
+    if (token == "Nnn") degree_column = column;
+  }
+  if (name_column == missing || degree_column == missing) {
+    reader.fail("the header lacks a column", "Name and Nnn are needed",
+                "Put the columns' names into the first line.");
+  }
+  std::map<std::string, std::uint32_t> degrees;
+  while (reader.next_line()) {
+    std::string file;
+    std::optional<std::uint32_t> degree;
+    column = 0;
+    for (auto token = reader.next_token(); !token.empty(); token = reader.next_token(), ++column) {
+      if (column == name_column) file = token;
+      if (column == degree_column) {
+        const std::int64_t value = reader.to_integer(token, "degree");
+        if (value < 0 || value > SphericalHarmonicBasis::highest_degree) {
+          reader.fail(
+              "the degree is out of range", in_quotes(token),
+              fmt::format("It lies between 0 and {}.", SphericalHarmonicBasis::highest_degree));
+        }
+        degree = static_cast<std::uint32_t>(value);
+      }
+    }
+    if (column == 0) continue;
+    if (!degree || file.empty()) {
+      reader.fail("the line is too short", "it has no degree", "Complete the table.");
+    }
+    degrees[file] = *degree;
+  }
+  return degrees;
+}
+
+ShapeLibrary build_library(std::span<const ShapeSource> sources, const ShapeResolution& resolution,
+                           const std::function<void(std::size_t done)>& on_progress) {
+  std::set<std::string_view> names;
+  for (const ShapeSource& source : sources) {
+    if (!names.insert(source.name).second) {
+      throw Error{{.place = {},
+                   .problem = "two grains are named " + source.name,
+                   .reason = "scenes pick shapes by name",
+                   .fix = "Rename one of the files."}};
+    }
+  }
+  ShapeLibrary library(sources.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto build = [&](std::size_t s) {
+    library[s] = build_shape(sources[s].surface(resolution), resolution, sources[s].name);
+    const std::lock_guard lock{mutex};
+    ++done;
+    if (on_progress) on_progress(done);
+  };
+  // Loops inside a shape run on one thread while the loop over shapes has them all.
+  if (sources.size() >= static_cast<std::size_t>(thread_count())) {
+    parallel_for(sources.size(), 1, build);
+  } else {
+    for (std::size_t s = 0; s < sources.size(); ++s) build(s);
+  }
+  return library;
+}
+
+}  // namespace reckon
