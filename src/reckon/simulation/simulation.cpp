@@ -15,7 +15,7 @@ namespace reckon {
 Simulation::Simulation(SimulationSetup setup, const SimulationState& state)
     : setup_{std::move(setup)},
       shapes_{setup_.shapes->begin(), setup_.shapes->end()},
-      grain_contacts_{setup_.contact},
+      grain_contacts_{setup_.contact, setup_.engine},
       wall_contacts_{setup_.walls},
       step_{state.step} {
   for (const GrainState& grain : state.grains) grains_.push_back(grain);

@@ -26,6 +26,7 @@ struct SimulationSetup {
   double damping{0};    ///< global damping xi [1/s]
   double time_step{0};  ///< [s]
   double skin{0};       ///< of the pair lists; changes the speed, never the answer [m]
+  ContactEngine engine{ContactEngine::near};  ///< likewise
 };
 
 /// What changes: all that a checkpoint must hold to go on to the same bits.
