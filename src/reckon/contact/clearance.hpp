@@ -24,7 +24,7 @@ class Clearance {
   explicit Clearance(const ShapeView& grain)
       : grid_{grain.level_set},
         radius_{grain.bounding_radius},
-        slope_{1 / grain.lipschitz},
+        slope_{grain.lipschitz > 0 ? 1 / grain.lipschitz : 0},
         high_{grid_.origin_body + grid_.spacing * Vec3{static_cast<double>(grid_.dims[0] - 1),
                                                        static_cast<double>(grid_.dims[1] - 1),
                                                        static_cast<double>(grid_.dims[2] - 1)}} {}
