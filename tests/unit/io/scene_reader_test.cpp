@@ -135,9 +135,8 @@ TEST_F(SceneReaderTest, AbsentKeysKeepTheDefaultsOfTheConfig) {
   SceneConfig expected;
   expected.contact.normal_stiffness = 1e9;
   expected.time.steps = 10;
-  expected.grains.push_back(
-      {.library = (directory_ / "sand.h5").string(),
-       .placement = std::vector<ExplicitGrain>{ExplicitGrain{}}});
+  expected.grains.push_back({.library = (directory_ / "sand.h5").string(),
+                             .placement = std::vector<ExplicitGrain>{ExplicitGrain{}}});
   EXPECT_EQ(write_scene(reading.config), write_scene(expected));
 }
 
