@@ -47,7 +47,7 @@ struct Choice {
   Value value;
 };
 template <class Value>  // which compilers before C++20's own rule need to be told
-Choice(std::string_view, Value) -> Choice<Value>;
+Choice(std::string_view, Value)->Choice<Value>;
 
 /// How many of the keys of one_of must be given.
 enum class Presence { exactly_one, at_most_one };
