@@ -145,9 +145,7 @@ class Extractor {
     row_ = row;
     next_ = 0;
   }
-  void number(const char* name, const char*, double& value) {
-    value = take<double, 1>(name)[0];
-  }
+  void number(const char* name, const char*, double& value) { value = take<double, 1>(name)[0]; }
   void vector(const char* name, const char*, Vec3& v) {
     const auto row = take<double, 3>(name);
     v = {row[0], row[1], row[2]};
@@ -167,8 +165,7 @@ class Extractor {
   template <class Number, std::size_t width>
   std::array<Number, width> take(const char* name) {
     if (next_ == columns_.size()) {
-      const Hdf5Extents extents =
-          width == 1 ? Hdf5Extents{rows_} : Hdf5Extents{rows_, width};
+      const Hdf5Extents extents = width == 1 ? Hdf5Extents{rows_} : Hdf5Extents{rows_, width};
       columns_.push_back({table_ + name, {}, width, file_.read<Number>(table_ + name, extents)});
     }
     const auto& values = std::get<std::vector<Number>>(columns_[next_++].values);
@@ -304,19 +301,19 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
   const std::uint64_t pairs = rows_of(file, "/pair/id_a");
   const auto id_a = file.read<std::uint32_t>("/pair/id_a", {pairs});
   const auto id_b = file.read<std::uint32_t>("/pair/id_b", {pairs});
-  read_contacts(file, "/pair/", pairs, "/pair_spring/",
-                [&](std::size_t row, std::vector<NodeSpring> springs) {
-                  state.pair_springs.push_back(
-                      {GrainId{id_a[row]}, GrainId{id_b[row]}, std::move(springs)});
-                });
+  read_contacts(
+      file, "/pair/", pairs, "/pair_spring/",
+      [&](std::size_t row, std::vector<NodeSpring> springs) {
+        state.pair_springs.push_back({GrainId{id_a[row]}, GrainId{id_b[row]}, std::move(springs)});
+      });
   const std::uint64_t contacts = rows_of(file, "/wall_contact/grain");
   const auto grain = file.read<std::uint32_t>("/wall_contact/grain", {contacts});
   const auto wall = file.read<std::uint32_t>("/wall_contact/wall", {contacts});
-  read_contacts(file, "/wall_contact/", contacts, "/wall_spring/",
-                [&](std::size_t row, std::vector<NodeSpring> springs) {
-                  state.wall_springs.push_back(
-                      {GrainId{grain[row]}, WallId{wall[row]}, std::move(springs)});
-                });
+  read_contacts(
+      file, "/wall_contact/", contacts, "/wall_spring/",
+      [&](std::size_t row, std::vector<NodeSpring> springs) {
+        state.wall_springs.push_back({GrainId{grain[row]}, WallId{wall[row]}, std::move(springs)});
+      });
   return checkpoint;
 }
 

@@ -89,8 +89,8 @@ void write_grain_points(const std::filesystem::path& path, const Simulation& sim
   write_vtp(path, data);
 }
 
-void write_contact_lines(const std::filesystem::path& path,
-                         std::span<const ContactRecord> contacts, double time) {
+void write_contact_lines(const std::filesystem::path& path, std::span<const ContactRecord> contacts,
+                         double time) {
   std::vector<Vec3> ends;
   std::vector<Vec3> force;
   std::vector<double> magnitude;
@@ -113,8 +113,8 @@ void write_contact_lines(const std::filesystem::path& path,
   VtkPolyData data;
   data.points = vtk_array("Points", ends);
   data.lines = consecutive_cells(contacts.size(), 2);
-  data.cell_data = {vtk_array("force", force),     vtk_array("force_magnitude", magnitude),
-                    vtk_array("grain", grain),     vtk_array("partner", partner),
+  data.cell_data = {vtk_array("force", force),         vtk_array("force_magnitude", magnitude),
+                    vtk_array("grain", grain),         vtk_array("partner", partner),
                     vtk_array("with_wall", with_wall), vtk_array("deepest", deepest),
                     vtk_array("nodes", nodes)};
   const std::vector<double> times{time};
@@ -142,8 +142,7 @@ void write_grain_surfaces(const std::filesystem::path& path, std::span<const Gra
       for (const std::uint32_t corner : triangle) {
         data.polygons.connectivity.push_back(first + corner);
       }
-      data.polygons.offsets.push_back(
-          static_cast<std::int64_t>(data.polygons.connectivity.size()));
+      data.polygons.offsets.push_back(static_cast<std::int64_t>(data.polygons.connectivity.size()));
     }
     const std::size_t triangles = surface.triangles.size();
     id.insert(id.end(), triangles, grain.id.get());

@@ -23,8 +23,8 @@ void write_grain_points(const std::filesystem::path& path, const Simulation& sim
 /// Writes one line per touching pair from centre to centre, or from a grain's centre to its foot on
 /// a wall: `force` on the first grain, `force_magnitude`, `grain`, `partner` (grain id or wall
 /// number), `with_wall`, `deepest`, `nodes`.
-void write_contact_lines(const std::filesystem::path& path,
-                         std::span<const ContactRecord> contacts, double time);
+void write_contact_lines(const std::filesystem::path& path, std::span<const ContactRecord> contacts,
+                         double time);
 
 /// Writes the grains' true surfaces where the grains are, with `id`, `shape` and `speed` per
 /// triangle. `surfaces[shape]` are in the body frame.

@@ -102,14 +102,31 @@ std::vector<HistoryColumn> history_columns(std::span<const Wall> walls) {
   return columns;
 }
 
+std::string history_reference_markdown() {
+  std::string page =
+      "# Columns of history.csv\n\n"
+      "One row at the start, one every `output.history_interval` steps, one at the end. The header "
+      "names the columns; each name ends in its unit. Numbers are written so that they read back "
+      "as the same bits. Energies add up as\n\n"
+      "    translation + rotation + gravity + elastic + friction + dashpot + damping\n"
+      "      - body_work - wall_work = constant + balance_error\n\n"
+      "This page is made by `reckon reference history`.\n\n"
+      "| column | meaning |\n|---|---|\n";
+  const Wall example{.name = "WALL", .surface = PlaneSurface{}, .law = LinearLaw{}};
+  for (const HistoryColumn& column : history_columns(std::span{&example, 1})) {
+    page += fmt::format("| `{}` | {} |\n", column.name, column.meaning);
+  }
+  return page;
+}
+
 std::string history_row(const Measurement& m, double energy_at_start) {
   const EnergyBudget& e = m.energy;
-  std::string row = fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", m.step, m.time,
-      e.translation, e.rotation, e.gravity, e.elastic, e.friction, e.dashpot, e.damping,
-      e.body_work, e.wall_work, e.total() - energy_at_start, m.contacts, m.wall_contacts,
-      m.touching_nodes, m.coordination, m.unbalanced_ratio, m.deepest_overlap, m.largest_speed,
-      m.momentum.x, m.momentum.y, m.momentum.z);
+  std::string row =
+      fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", m.step,
+                  m.time, e.translation, e.rotation, e.gravity, e.elastic, e.friction, e.dashpot,
+                  e.damping, e.body_work, e.wall_work, e.total() - energy_at_start, m.contacts,
+                  m.wall_contacts, m.touching_nodes, m.coordination, m.unbalanced_ratio,
+                  m.deepest_overlap, m.largest_speed, m.momentum.x, m.momentum.y, m.momentum.z);
   for (const Vec3& force : m.wall_force) {
     row += fmt::format(",{},{},{}", force.x, force.y, force.z);
   }

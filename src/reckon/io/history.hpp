@@ -23,6 +23,9 @@ struct HistoryColumn {
 /// The columns of a run: fixed ones, then three per wall.
 [[nodiscard]] std::vector<HistoryColumn> history_columns(std::span<const Wall> walls);
 
+/// The reference page docs/reference/history.md.
+[[nodiscard]] std::string history_reference_markdown();
+
 /// One row, without the end of the line. Numbers are written so that they read back as the same
 /// bits. `energy_at_start` is EnergyBudget::total() at step 0 [J].
 [[nodiscard]] std::string history_row(const Measurement& measurement, double energy_at_start);

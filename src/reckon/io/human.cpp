@@ -33,12 +33,13 @@ std::string human_duration(double seconds) {
 }
 
 std::string human_count(std::uint64_t count) {
-  std::string digits = std::to_string(count);
-  for (std::size_t at = digits.size(); at > 3;) {
-    at -= 3;
-    digits.insert(at, ",");
+  const std::string digits = std::to_string(count);
+  std::string out;
+  for (std::size_t n = 0; n < digits.size(); ++n) {
+    if (n > 0 && (digits.size() - n) % 3 == 0) out += ',';
+    out += digits[n];
   }
-  return digits;
+  return out;
 }
 
 }  // namespace reckon

@@ -115,9 +115,9 @@ void require_same_run(const Checkpoint& then, const Checkpoint& now, const std::
            "the content of body.acceleration_file has changed");
   }
   if (then.state.grains.size() != now.state.grains.size()) {
-    refuse(place, "the number of grains is not that of the run to be resumed",
-           fmt::format("it was {} and now is {}", then.state.grains.size(),
-                       now.state.grains.size()));
+    refuse(
+        place, "the number of grains is not that of the run to be resumed",
+        fmt::format("it was {} and now is {}", then.state.grains.size(), now.state.grains.size()));
   }
 }
 

@@ -193,8 +193,8 @@ class Session {
     }
     if (seconds_since(last_log_time_) >= log_interval) {
       last_log_time_ = Clock::now();
-      log_.write(fmt::format("step {} of {}, {:.6g} s simulated", step, progress_.steps,
-                             progress_.time));
+      log_.write(
+          fmt::format("step {} of {}, {:.6g} s simulated", step, progress_.steps, progress_.time));
     }
     return rests;
   }
@@ -276,9 +276,9 @@ class Session {
   RunFailure fail(ErrorText text) {
     if (latest_checkpoint_) {
       if (!text.fix.empty()) text.fix += ' ';
-      text.fix += fmt::format("The last checkpoint is {} (step {}).",
-                              folder_.checkpoint(*latest_checkpoint_).string(),
-                              *latest_checkpoint_);
+      text.fix +=
+          fmt::format("The last checkpoint is {} (step {}).",
+                      folder_.checkpoint(*latest_checkpoint_).string(), *latest_checkpoint_);
     } else {
       if (!text.fix.empty()) text.fix += ' ';
       text.fix += "There is no checkpoint yet.";

@@ -38,9 +38,9 @@ struct RunProgress {
 
 /// What the caller does meanwhile. All may be empty.
 struct RunHooks {
-  std::function<bool()> stop_requested;                  ///< asked after every step
-  std::function<void(const RunProgress&)> progressed;    ///< called after every step
-  std::function<void(const std::string&)> note;          ///< events in one line each
+  std::function<bool()> stop_requested;                ///< asked after every step
+  std::function<void(const RunProgress&)> progressed;  ///< called after every step
+  std::function<void(const std::string&)> note;        ///< events in one line each
 };
 
 enum class RunEnd {
@@ -53,9 +53,9 @@ enum class RunEnd {
 struct RunReport {
   RunEnd end{RunEnd::complete};
   RunProgress progress;
-  Measurement last;              ///< at the last step
-  double energy_error{0};        ///< balance error [J]
-  double energy_turnover{0};     ///< stored, lost and come in, as a measure for it [J]
+  Measurement last;                  ///< at the last step
+  double energy_error{0};            ///< balance error [J]
+  double energy_turnover{0};         ///< stored, lost and come in, as a measure for it [J]
   std::filesystem::path checkpoint;  ///< the latest
 };
 

@@ -84,16 +84,20 @@ std::optional<Difference> column_difference(const CheckpointColumn& column,
                                             const std::vector<Number>& b,
                                             const SimulationState& state) {
   if (a.size() != b.size()) {
-    return Difference{column.name, "number of rows", std::to_string(a.size() / column.width),
-                      std::to_string(b.size() / column.width), {}};
+    return Difference{column.name,
+                      "number of rows",
+                      std::to_string(a.size() / column.width),
+                      std::to_string(b.size() / column.width),
+                      {}};
   }
   for (std::size_t n = 0; n < a.size(); ++n) {
     if (same_bits(a[n], b[n])) continue;
-    Difference difference{
-        column.name,
-        row_name(column.name, n / column.width, state) +
-            component_name(column.width, n % column.width),
-        fmt::format("{}", a[n]), fmt::format("{}", b[n]), {}};
+    Difference difference{column.name,
+                          row_name(column.name, n / column.width, state) +
+                              component_name(column.width, n % column.width),
+                          fmt::format("{}", a[n]),
+                          fmt::format("{}", b[n]),
+                          {}};
     if constexpr (std::is_same_v<Number, double>) difference.ulps = ulps_between(a[n], b[n]);
     return difference;
   }
@@ -106,8 +110,11 @@ RunComparison::Part compare_histories(const RunFolder& a, const RunFolder& b) {
   RunComparison::Part part{
       "history", fmt::format("{} and {} rows", first.rows.size(), second.rows.size()), {}};
   if (first.header != second.header) {
-    part.difference = Difference{"columns", "header", fmt::format("{}", first.header.size()),
-                                 fmt::format("{}", second.header.size()), {}};
+    part.difference = Difference{"columns",
+                                 "header",
+                                 fmt::format("{}", first.header.size()),
+                                 fmt::format("{}", second.header.size()),
+                                 {}};
     for (std::size_t c = 0; c < std::min(first.header.size(), second.header.size()); ++c) {
       if (first.header[c] == second.header[c]) continue;
       part.difference = Difference{"columns", "header", first.header[c], second.header[c], {}};
@@ -129,8 +136,11 @@ RunComparison::Part compare_histories(const RunFolder& a, const RunFolder& b) {
     }
   }
   if (first.rows.size() != second.rows.size()) {
-    part.difference = Difference{"number of rows", "end", std::to_string(first.rows.size()),
-                                 std::to_string(second.rows.size()), {}};
+    part.difference = Difference{"number of rows",
+                                 "end",
+                                 std::to_string(first.rows.size()),
+                                 std::to_string(second.rows.size()),
+                                 {}};
   }
   return part;
 }
@@ -204,8 +214,8 @@ RunComparison compare_runs(const RunFolder& a, const RunFolder& b) {
     comparison.parts.push_back(compare_checkpoints(fmt::format("checkpoint of step {}", step),
                                                    a.checkpoint(step), b.checkpoint(step)));
   }
-  comparison.parts.push_back(compare_checkpoints("final state", a.checkpoint(first.back()),
-                                                 b.checkpoint(second.back())));
+  comparison.parts.push_back(
+      compare_checkpoints("final state", a.checkpoint(first.back()), b.checkpoint(second.back())));
   return comparison;
 }
 

@@ -24,8 +24,8 @@ struct Difference {
 /// What a comparison of two runs found.
 struct RunComparison {
   struct Part {
-    std::string name;     ///< "history", "checkpoint of step 300", "final state"
-    std::string compared; ///< how much was compared, e.g. "12 rows"
+    std::string name;                      ///< "history", "checkpoint of step 300", "final state"
+    std::string compared;                  ///< how much was compared, e.g. "12 rows"
     std::optional<Difference> difference;  ///< the first one, if any
   };
   std::vector<Part> parts;

@@ -67,7 +67,8 @@ void RunOutputs::write_fields(Simulation& simulation) {
 
 void RunOutputs::add_to_index(std::string_view kind, std::uint64_t step,
                               std::vector<PvdEntry>& entries) {
-  entries.push_back({static_cast<double>(step) * time_step_, RunFolder::field_name(kind, step), {}});
+  entries.push_back(
+      {static_cast<double>(step) * time_step_, RunFolder::field_name(kind, step), {}});
   write_pvd(folder_.index(kind), entries);
 }
 

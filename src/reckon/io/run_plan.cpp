@@ -64,13 +64,12 @@ void estimate_memory(const LoadedScene& scene, RunPlan& plan) {
                           shape.nodes.size() * 4 * sizeof(double) +
                           shape.clusters.size() * sizeof(NodeCluster);
   }
-  constexpr std::uint64_t grain = 2 * sizeof(GrainState) + sizeof(GrainFrame) + sizeof(Load) +
-                                  sizeof(Vec3) + 64 /* bins */;
+  constexpr std::uint64_t grain =
+      2 * sizeof(GrainState) + sizeof(GrainFrame) + sizeof(Load) + sizeof(Vec3) + 64 /* bins */;
   constexpr std::uint64_t pair =
       sizeof(Pair) + sizeof(PairForce) + 2 * sizeof(SpringRange) + 2 * sizeof(PairsOfGrain::Entry);
   constexpr std::uint64_t springs = 2 * nodes_per_pair * sizeof(NodeSpring);
-  plan.memory_grains =
-      plan.grains * (grain + listed_per_grain * pair + pairs_per_grain * springs);
+  plan.memory_grains = plan.grains * (grain + listed_per_grain * pair + pairs_per_grain * springs);
 }
 
 /// How often something happens from step 1 to the end, when the end counts anyhow.
@@ -162,34 +161,37 @@ std::string plan_text(const RunPlan& plan) {
   const auto line = [&](std::string_view name, const std::string& value) {
     text += fmt::format("  {:<12} {}\n", name, value);
   };
-  line("grains", fmt::format("{} of {} shapes ({} in the library), {:.4g} kg", human_count(plan.grains),
-                             plan.shapes_in_use, plan.shapes, plan.solid_mass));
-  line("sizes", fmt::format("bounding spheres of {:.4g} to {:.4g} m across",
-                            plan.smallest_diameter, plan.largest_diameter));
+  line("grains",
+       fmt::format("{} of {} shapes ({} in the library), {:.4g} kg", human_count(plan.grains),
+                   plan.shapes_in_use, plan.shapes, plan.solid_mass));
+  line("sizes", fmt::format("bounding spheres of {:.4g} to {:.4g} m across", plan.smallest_diameter,
+                            plan.largest_diameter));
   line("nodes", fmt::format("{} on all grains", human_count(plan.nodes)));
   line("walls", fmt::format("{}", plan.walls));
-  line("bins", fmt::format("{} in use, {:.4g} m wide; {} pairs listed at the start",
-                           human_count(plan.occupied_bins), plan.bin_edge,
-                           human_count(plan.listed_pairs)));
-  line("at start", plan.contacts == 0
-                       ? std::string{"nothing touches"}
-                       : fmt::format("{} contacts, deepest overlap {:.3g} m ({:.2g} of the smallest "
-                                     "grain)",
-                                     human_count(plan.contacts), plan.deepest_overlap,
-                                     plan.deepest_overlap / plan.smallest_diameter));
+  line("bins",
+       fmt::format("{} in use, {:.4g} m wide; {} pairs listed at the start",
+                   human_count(plan.occupied_bins), plan.bin_edge, human_count(plan.listed_pairs)));
+  line("at start",
+       plan.contacts == 0
+           ? std::string{"nothing touches"}
+           : fmt::format("{} contacts, deepest overlap {:.3g} m ({:.2g} of the smallest "
+                         "grain)",
+                         human_count(plan.contacts), plan.deepest_overlap,
+                         plan.deepest_overlap / plan.smallest_diameter));
   const TimeStepChoice& step = plan.time_step;
-  line("time step", step.given ? fmt::format("{:.6g} s, as given", step.step)
-                               : fmt::format("{:.6g} s = {} sqrt(m / k)", step.step,
-                                             plan.step_fraction));
-  line("", fmt::format("{} grain {} (shape {}): m = {:.4g} kg, k = {:.4g} N/m{}",
-                       step.given ? "the rule would look at" : "set by", step.limiting.get(),
-                       plan.limiting_shape, step.mass, step.stiffness,
-                       step.given ? fmt::format(", and take {:.4g} s", step.rule_step)
-                                  : std::string{}));
-  line("steps", fmt::format("{}, {:.6g} s simulated", human_count(plan.steps), plan.simulated_time));
-  line("memory", fmt::format("about {} ({} of shapes)",
-                             human_bytes(plan.memory_shapes + plan.memory_grains),
-                             human_bytes(plan.memory_shapes)));
+  line("time step", step.given
+                        ? fmt::format("{:.6g} s, as given", step.step)
+                        : fmt::format("{:.6g} s = {} sqrt(m / k)", step.step, plan.step_fraction));
+  line("", fmt::format(
+               "{} grain {} (shape {}): m = {:.4g} kg, k = {:.4g} N/m{}",
+               step.given ? "the rule would look at" : "set by", step.limiting.get(),
+               plan.limiting_shape, step.mass, step.stiffness,
+               step.given ? fmt::format(", and take {:.4g} s", step.rule_step) : std::string{}));
+  line("steps",
+       fmt::format("{}, {:.6g} s simulated", human_count(plan.steps), plan.simulated_time));
+  line("memory",
+       fmt::format("about {} ({} of shapes)", human_bytes(plan.memory_shapes + plan.memory_grains),
+                   human_bytes(plan.memory_shapes)));
   line("output", fmt::format("about {}: {} history rows, {} ParaView frames, {} checkpoints",
                              human_bytes(plan.output_bytes), human_count(plan.history_rows),
                              human_count(plan.frames), human_count(plan.checkpoints)));

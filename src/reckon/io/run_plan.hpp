@@ -13,15 +13,15 @@ namespace reckon {
 /// What a run will do, as far as can be said before it.
 struct RunPlan {
   std::uint64_t grains{0};
-  std::uint64_t shapes{0};        ///< in the library
+  std::uint64_t shapes{0};  ///< in the library
   std::uint64_t shapes_in_use{0};
-  std::uint64_t nodes{0};         ///< of all grains
-  std::uint64_t walls{0};         ///< a box counts as its planes
-  double smallest_diameter{0};    ///< of bounding spheres in use [m]
-  double largest_diameter{0};     ///< [m]
-  double solid_mass{0};           ///< [kg]
+  std::uint64_t nodes{0};       ///< of all grains
+  std::uint64_t walls{0};       ///< a box counts as its planes
+  double smallest_diameter{0};  ///< of bounding spheres in use [m]
+  double largest_diameter{0};   ///< [m]
+  double solid_mass{0};         ///< [kg]
 
-  double bin_edge{0};             ///< [m]
+  double bin_edge{0};  ///< [m]
   std::uint64_t occupied_bins{0};
   std::uint64_t listed_pairs{0};  ///< at the start
   std::uint64_t contacts{0};      ///< touching pairs at the start, walls included
@@ -29,22 +29,22 @@ struct RunPlan {
 
   TimeStepChoice time_step;
   double step_fraction{0};
-  std::string limiting_shape;     ///< of the grain that limits the time step
+  std::string limiting_shape;  ///< of the grain that limits the time step
   std::uint64_t steps{0};
-  double simulated_time{0};       ///< [s]
+  double simulated_time{0};  ///< [s]
 
   std::uint64_t memory_shapes{0};  ///< [bytes]
   std::uint64_t memory_grains{0};  ///< with pair lists and springs [bytes]
   std::uint64_t history_rows{0};
   std::uint64_t frames{0};
   std::uint64_t checkpoints{0};
-  std::uint64_t output_bytes{0};   ///< estimate of the run folder
+  std::uint64_t output_bytes{0};  ///< estimate of the run folder
 
   int threads{1};
-  std::uint64_t timed_steps{0};    ///< how many steps were made in memory to know the speed
-  double seconds_per_step{0};      ///< wall clock
-  double output_seconds{0};        ///< estimate for the whole run
-  double duration{0};              ///< estimate for the whole run [s]
+  std::uint64_t timed_steps{0};  ///< how many steps were made in memory to know the speed
+  double seconds_per_step{0};    ///< wall clock
+  double output_seconds{0};      ///< estimate for the whole run
+  double duration{0};            ///< estimate for the whole run [s]
   std::optional<std::string> trial_failure;  ///< what went wrong in the timed steps
 };
 

@@ -29,9 +29,9 @@ class RunLog {
 
 /// What run.json says: which program ran what, where, and how it ended.
 struct RunRecord {
-  std::string status;  ///< running, complete, at rest, interrupted, failed
-  std::string message; ///< of a failure
-  std::string started; ///< this session [UTC]
+  std::string status;   ///< running, complete, at rest, interrupted, failed
+  std::string message;  ///< of a failure
+  std::string started;  ///< this session [UTC]
   std::string scene;
   std::uint64_t grains{0};
   std::uint64_t shapes{0};

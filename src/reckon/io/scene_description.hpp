@@ -292,10 +292,11 @@ void describe(Visitor& v, ExplicitGrain& grain) {
             .unit = "rad/s",
             .meaning = "Initial angular velocity in the world frame."},
            grain.angular_velocity);
-  v.flag({.name = "fixed",
-          .meaning = "The grain keeps its velocities whatever the forces: it stands still when they "
-                     "are zero."},
-         grain.fixed);
+  v.flag(
+      {.name = "fixed",
+       .meaning = "The grain keeps its velocities whatever the forces: it stands still when they "
+                  "are zero."},
+      grain.fixed);
 }
 
 template <class Visitor>

@@ -116,12 +116,10 @@ class Loader {
     std::vector<std::array<double, 3>> positions;
     std::vector<std::array<double, 4>> rotations;
     if (files.positions_file.empty() || files.rotations_file.empty()) return {};
-    const bool read_positions = attempt(path + ".positions", [&] {
-      positions = read_number_table<3>(files.positions_file);
-    });
-    const bool read_rotations = attempt(path + ".rotations", [&] {
-      rotations = read_number_table<4>(files.rotations_file);
-    });
+    const bool read_positions = attempt(
+        path + ".positions", [&] { positions = read_number_table<3>(files.positions_file); });
+    const bool read_rotations = attempt(
+        path + ".rotations", [&] { rotations = read_number_table<4>(files.rotations_file); });
     if (!read_positions || !read_rotations) return {};
     if (positions.size() != rotations.size()) {
       fault(path + ".rotations",

@@ -136,7 +136,8 @@ TEST_F(SceneReaderTest, AbsentKeysKeepTheDefaultsOfTheConfig) {
   expected.contact.normal_stiffness = 1e9;
   expected.time.steps = 10;
   expected.grains.push_back(
-      {(directory_ / "sand.h5").string(), std::vector<ExplicitGrain>{ExplicitGrain{}}});
+      {.library = (directory_ / "sand.h5").string(),
+       .placement = std::vector<ExplicitGrain>{ExplicitGrain{}}});
   EXPECT_EQ(write_scene(reading.config), write_scene(expected));
 }
 

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace reckon::app {
+
+/// What reckon tells the shell; docs/reference/command-line.md lists the same.
+enum ExitCode : int {
+  success = 0,         ///< done; diff: bit-identical; check: no faults
+  input_at_fault = 1,  ///< usage, scene, or files; diff: the runs differ
+  run_failed = 2,      ///< a run broke off; diff: a run could not be read
+  internal_error = 3,  ///< a fault of reckon itself
+  interrupted = 130,   ///< Ctrl-C: a checkpoint was written (128 + SIGINT)
+  terminated = 143,    ///< SIGTERM: a checkpoint was written (128 + SIGTERM)
+};
+
+inline constexpr const char* exit_code_footer =
+    "Exit codes: 0 success, 1 the input is at fault, 2 the run failed, 3 a fault of reckon "
+    "itself,\n"
+    "130 or 143 stopped by Ctrl-C or SIGTERM after writing a checkpoint.";
+
+}  // namespace reckon::app

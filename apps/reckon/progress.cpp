@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "progress.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "reckon/io/human.hpp"
+
+namespace reckon::app {
+namespace {
+
+constexpr double redraw_interval = 0.2;       // [s]
+constexpr double longest_line_interval = 60;  // [s]
+
+std::size_t terminal_width() {
+  winsize size{};
+  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+  return size.ws_col;
+}
+
+double share_done(const RunProgress& progress) {
+  return progress.steps == 0
+             ? 1
+             : static_cast<double>(progress.step) / static_cast<double>(progress.steps);
+}
+
+std::string time_left(const RunProgress& progress, double steps_per_second) {
+  if (!(steps_per_second > 0)) return "?";
+  return human_duration(static_cast<double>(progress.steps - progress.step) / steps_per_second);
+}
+
+}  // namespace
+
+ProgressDisplay::ProgressDisplay(bool quiet)
+    : quiet_{quiet},
+      terminal_{::isatty(STDOUT_FILENO) == 1},
+      last_shown_{Clock::now()},
+      rate_since_{last_shown_} {}
+
+void ProgressDisplay::show(const RunProgress& progress) {
+  if (quiet_) return;
+  const Clock::time_point now = Clock::now();
+  const double since = std::chrono::duration<double>(now - last_shown_).count();
+  if (since < (terminal_ ? redraw_interval : line_interval_)) return;
+  last_shown_ = now;
+  const double steps_per_second = rate(progress, now);
+  if (terminal_) {
+    draw_bar(progress, steps_per_second);
+  } else {
+    print_line(progress, steps_per_second);
+    line_interval_ = std::min(2 * line_interval_, longest_line_interval);
+  }
+}
+
+void ProgressDisplay::clear() {
+  if (!drawn_) return;
+  std::fputs("\r\033[K", stdout);
+  std::fflush(stdout);
+  drawn_ = false;
+}
+
+/// Steps per second of late: the time left should follow a run that slows down as contacts form.
+double ProgressDisplay::rate(const RunProgress& progress, Clock::time_point now) {
+  const std::uint64_t from = std::max(rate_from_step_, progress.first_step);
+  const double seconds = std::chrono::duration<double>(now - rate_since_).count();
+  const double recent = static_cast<double>(progress.step - from) / seconds;
+  smooth_rate_ = smooth_rate_ > 0 ? 0.8 * smooth_rate_ + 0.2 * recent : recent;
+  rate_since_ = now;
+  rate_from_step_ = progress.step;
+  return smooth_rate_;
+}
+
+void ProgressDisplay::draw_bar(const RunProgress& progress, double steps_per_second) {
+  const std::string text =
+      fmt::format(" {:3.0f} %  step {} of {}  {:.3g} s  {:.3g} steps/s  {} left",
+                  100 * share_done(progress), progress.step, progress.steps, progress.time,
+                  steps_per_second, time_left(progress, steps_per_second));
+  const std::size_t room =
+      terminal_width() > text.size() + 4 ? terminal_width() - text.size() - 4 : 0;
+  const std::size_t bar = std::min<std::size_t>(room, 30);
+  const auto filled = static_cast<std::size_t>(share_done(progress) * static_cast<double>(bar));
+  fmt::print("\r\033[K[{}{}]{}", std::string(filled, '#'), std::string(bar - filled, '.'), text);
+  std::fflush(stdout);
+  drawn_ = true;
+}
+
+void ProgressDisplay::print_line(const RunProgress& progress, double steps_per_second) const {
+  fmt::print("step {} of {} ({:.1f} %), {:.4g} s simulated, {:.3g} steps/s, {} left\n",
+             progress.step, progress.steps, 100 * share_done(progress), progress.time,
+             steps_per_second, time_left(progress, steps_per_second));
+  std::fflush(stdout);
+}
+
+}  // namespace reckon::app

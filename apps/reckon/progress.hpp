@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+
+#include "reckon/io/run.hpp"
+
+namespace reckon::app {
+
+/// Shows how far a run is: a bar that redraws itself on a terminal, else a plain line now and then
+/// for logs of batch systems.
+class ProgressDisplay {
+ public:
+  explicit ProgressDisplay(bool quiet);
+
+  void show(const RunProgress& progress);
+  /// Clears the bar, so that other lines can be printed.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] double rate(const RunProgress& progress, Clock::time_point now);
+  void draw_bar(const RunProgress& progress, double steps_per_second);
+  void print_line(const RunProgress& progress, double steps_per_second) const;
+
+  bool quiet_;
+  bool terminal_;
+  bool drawn_{false};
+  Clock::time_point last_shown_;
+  Clock::time_point rate_since_;
+  std::uint64_t rate_from_step_{0};
+  double smooth_rate_{0};
+  double line_interval_{1};  // grows, so that a log of days stays short [s]
+};
+
+}  // namespace reckon::app

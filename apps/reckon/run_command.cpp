@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "exit_codes.hpp"
+#include "progress.hpp"
+#include "reckon/io/human.hpp"
+#include "reckon/io/run.hpp"
+#include "reckon/parallel/threads.hpp"
+#include "scene_input.hpp"
+#include "stop_signal.hpp"
+
+namespace reckon::app {
+namespace {
+
+struct Options {
+  std::string scene;
+  std::string folder;
+  int threads{0};
+  std::uint64_t steps{0};
+  bool resume{false};
+  bool overwrite{false};
+  bool quiet{false};
+  double safety_minutes{10};
+};
+
+std::filesystem::path run_folder(const Options& options) {
+  if (!options.folder.empty()) return options.folder;
+  return std::filesystem::path{options.scene}.stem().string() + ".run";
+}
+
+std::string resume_hint(const Options& options) {
+  return fmt::format("reckon run {}{} --resume", options.scene,
+                     options.folder.empty() ? "" : " --out " + options.folder);
+}
+
+void print_result(const RunReport& report, const std::filesystem::path& folder) {
+  const RunProgress& progress = report.progress;
+  const Measurement& last = report.last;
+  const auto made = static_cast<double>(progress.step - progress.first_step);
+  fmt::print("{} at step {} ({:.6g} s simulated) after {}, {:.3g} steps/s\n",
+             report.end == RunEnd::at_rest ? "came to rest" : "complete", progress.step,
+             progress.time, human_duration(progress.wall_seconds),
+             progress.wall_seconds > 0 ? made / progress.wall_seconds : 0);
+  fmt::print("  contacts {} ({} with walls), coordination number {:.3g}, unbalanced ratio {:.3g}\n",
+             last.contacts + last.wall_contacts, last.wall_contacts, last.coordination,
+             last.unbalanced_ratio);
+  fmt::print("  kinetic energy {:.4g} J, fastest grain {:.3g} m/s, deepest overlap {:.3g} m\n",
+             last.energy.translation + last.energy.rotation, last.largest_speed,
+             last.deepest_overlap);
+  fmt::print("  energy balance error {:.2g} J", report.energy_error);
+  if (report.energy_turnover > 0) {
+    fmt::print(", {:.2g} of the energy turned over",
+               std::abs(report.energy_error) / report.energy_turnover);
+  }
+  fmt::print("\n  tables    {}\n  ParaView  {}\n", (folder / "history.csv").string(),
+             (folder / "grains.pvd").string());
+}
+
+void run(const Options& options) {
+  if (options.threads > 0) set_thread_count(options.threads);
+  const SceneInput input = read_scene(options.scene);
+  if (!input.reading.faults.empty()) {
+    print_faults(options.scene, input.reading);
+    throw CLI::RuntimeError{input_at_fault};
+  }
+  const RunOptions run_options{
+      .folder = run_folder(options),
+      .resume = options.resume,
+      .overwrite = options.overwrite,
+      .steps = options.steps > 0 ? std::optional{options.steps} : std::nullopt,
+      .safety_interval = 60 * options.safety_minutes};
+  ProgressDisplay display{options.quiet};
+  RunHooks hooks;
+  hooks.stop_requested = [] { return stop_signal() != 0; };
+  hooks.progressed = [&](const RunProgress& progress) { display.show(progress); };
+  hooks.note = [&](const std::string& text) {
+    if (options.quiet) return;
+    display.clear();
+    fmt::print("{}\n", text);
+    std::fflush(stdout);
+  };
+  watch_stop_signals();
+  if (!options.quiet) {
+    const std::string& title = input.scene.config.title;
+    fmt::print("{} -> {}\n", title.empty() ? options.scene : title, run_options.folder.string());
+  }
+  RunReport report;
+  try {
+    report = run_scene(input.reading, input.scene, run_options, hooks);
+  } catch (...) {
+    display.clear();
+    throw;
+  }
+  display.clear();
+  if (report.end == RunEnd::interrupted) {
+    const int signal = stop_signal();
+    fmt::print(stderr, "reckon: stopped by {} at step {} of {}; checkpoint written\n  {}\n",
+               signal == SIGTERM ? "SIGTERM" : "Ctrl-C", report.progress.step,
+               report.progress.steps, resume_hint(options));
+    throw CLI::RuntimeError{signal == SIGTERM ? terminated : interrupted};
+  }
+  if (options.quiet) return;
+  if (report.end == RunEnd::nothing_to_do) {
+    fmt::print("the run is complete already: nothing to do\n");
+  } else {
+    print_result(report, run_options.folder);
+  }
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("run", "Run a scene, or go on with a run");
+  auto options = std::make_shared<Options>();
+  command->add_option("scene", options->scene, "Scene file (TOML)")->required();
+  command->add_option("--out", options->folder,
+                      "Folder for the run's files (default: name of the scene + .run)");
+  command
+      ->add_option("--threads", options->threads,
+                   "Number of threads (default: all); changes no result")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--steps", options->steps, "Run to this step instead of what the scene says")
+      ->check(CLI::PositiveNumber);
+  CLI::Option* resume = command->add_flag(
+      "--resume", options->resume,
+      "Go on from the latest good checkpoint, to the same bits as without a break; starts anew "
+      "where there is none");
+  command->add_flag("--overwrite", options->overwrite, "Replace the run that is in the folder")
+      ->excludes(resume);
+  command
+      ->add_option("--safety-minutes", options->safety_minutes,
+                   "Wall-clock minutes between checkpoints besides the scene's; 0: none")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->footer(std::string{"Examples:\n"
+                              "  reckon run settle.toml\n"
+                              "  reckon run settle.toml --out /scratch/settle --threads 8\n"
+                              "  reckon run settle.toml --resume               after a break\n"
+                              "  reckon run settle.toml --resume --steps 50000  longer\n\n"
+                              "Ctrl-C and SIGTERM finish the step, write a checkpoint and end; a "
+                              "second one ends at once.\n\n"} +
+                  exit_code_footer);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace reckon::app

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surfaces_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "reckon/io/run_surfaces.hpp"
+
+namespace reckon::app {
+
+void add_surfaces_command(CLI::App& app) {
+  struct Options {
+    std::string folder;
+    std::optional<std::uint64_t> step;
+  };
+  CLI::App* command = app.add_subcommand(
+      "surfaces", "Write the grains' true surfaces at the checkpoints of a run, for ParaView");
+  auto options = std::make_shared<Options>();
+  command->add_option("run", options->folder, "Folder of a run")->required();
+  command->add_option("--step", options->step, "Only the checkpoint of this step");
+  command->footer(
+      "Files go to the run's folder; surfaces.pvd lists them. To have them at every frame, set\n"
+      "output.surfaces = true in the scene.\n\n"
+      "Example:\n  reckon surfaces settle.run");
+  command->callback([options] {
+    const SurfaceFiles files = write_run_surfaces(RunFolder{options->folder}, options->step);
+    fmt::print("{} file{} written; open {}\n", files.written, files.written == 1 ? "" : "s",
+               files.index.string());
+  });
+}
+
+}  // namespace reckon::app

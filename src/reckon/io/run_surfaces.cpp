@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/io/run_surfaces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/core/vtk_xml.hpp"
+#include "reckon/io/checkpoint.hpp"
+#include "reckon/io/fields.hpp"
+#include "reckon/io/scene_reader.hpp"
+
+namespace reckon {
+namespace {
+
+/// The shapes that a checkpoint was made with, from the files that its scene names.
+ShapeLibrary load_shapes_of(const Checkpoint& checkpoint, const std::string& place) {
+  const SceneReading reading = read_scene_text(checkpoint.scene, "/");
+  ShapeLibrary shapes;
+  for (const GrainsConfig& set : reading.config.grains) {
+    if (set.library.empty()) continue;  // the file is gone; told below
+    ShapeLibrary library = load_library(set.library, set.voxel);
+    std::move(library.begin(), library.end(), std::back_inserter(shapes));
+  }
+  std::vector<std::uint64_t> digests;
+  for (const Shape& shape : shapes) digests.push_back(shape_digest(shape));
+  if (digests != checkpoint.shape_digests) {
+    throw Error{{.place = place,
+                 .problem = "the shapes of this run cannot be found",
+                 .reason = "a shape library named in scene_resolved.toml is gone or has changed",
+                 .fix = "Put it back."}};
+  }
+  return shapes;
+}
+
+}  // namespace
+
+SurfaceFiles write_run_surfaces(const RunFolder& folder, std::optional<std::uint64_t> step) {
+  const std::string place = folder.root().string();
+  std::vector<std::uint64_t> steps = folder.checkpoint_steps();
+  if (step) {
+    if (std::find(steps.begin(), steps.end(), *step) == steps.end()) {
+      throw Error{{.place = place,
+                   .problem = fmt::format("there is no checkpoint of step {}", *step),
+                   .reason = {},
+                   .fix = "Its folder checkpoints lists them."}};
+    }
+    steps = {*step};
+  }
+  if (steps.empty()) {
+    throw Error{{.place = place,
+                 .problem = "there is no checkpoint here",
+                 .reason = {},
+                 .fix = "Name the folder of a run."}};
+  }
+  std::vector<TriangleMesh> surfaces;
+  double time_step = 0;
+  for (const std::uint64_t at : steps) {
+    const Checkpoint checkpoint = read_checkpoint(folder.checkpoint(at));
+    if (surfaces.empty()) surfaces = surface_meshes(load_shapes_of(checkpoint, place));
+    time_step = checkpoint.time_step;
+    write_grain_surfaces(folder.root() / RunFolder::field_name("surfaces", at),
+                         checkpoint.state.grains, surfaces, static_cast<double>(at) * time_step);
+  }
+  std::vector<PvdEntry> entries;
+  for (const std::uint64_t at : folder.field_steps("surfaces")) {
+    entries.push_back(
+        {static_cast<double>(at) * time_step, RunFolder::field_name("surfaces", at), {}});
+  }
+  write_pvd(folder.index("surfaces"), entries);
+  return {steps.size(), folder.index("surfaces")};
+}
+
+}  // namespace reckon

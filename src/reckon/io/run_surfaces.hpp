@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "reckon/io/run_folder.hpp"
+
+namespace reckon {
+
+struct SurfaceFiles {
+  std::size_t written{0};
+  std::filesystem::path index;  ///< of all surface files of the run
+};
+
+/// Writes the grains' true surfaces at the checkpoints of a run, or at one of them, and an index of
+/// all surface files there. Throws Error when the run, its shape library or that step is missing,
+/// or when the library is no longer the one that ran.
+SurfaceFiles write_run_surfaces(const RunFolder& folder, std::optional<std::uint64_t> step);
+
+}  // namespace reckon
