@@ -71,6 +71,7 @@ Start ready_folder(const RunFolder& folder, const RunOptions& options, Checkpoin
                    const std::function<void(const std::string&)>& note) {
   const std::string place = folder.root().string();
   if (options.resume && folder.holds_run()) {
+    folder.remove_leftovers();
     std::optional<Checkpoint> found = latest_checkpoint(folder, note);
     if (found) {
       require_same_run(*found, first, place);

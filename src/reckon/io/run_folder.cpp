@@ -83,6 +83,7 @@ void RunFolder::create() const {
 }
 
 void RunFolder::remove_run() const {
+  remove_leftovers();
   for (const std::uint64_t step : checkpoint_steps()) std::filesystem::remove(checkpoint(step));
   for (const char* kind : field_kinds) {
     for (const std::uint64_t step : field_steps(kind)) {
@@ -92,6 +93,17 @@ void RunFolder::remove_run() const {
   }
   for (const auto& file : {scene(), resolved(), history(), log(), json()}) {
     std::filesystem::remove(file);
+  }
+}
+
+void RunFolder::remove_leftovers() const {
+  for (const auto& folder : {root_, root_ / "fields", root_ / "checkpoints"}) {
+    std::error_code code;
+    std::vector<std::filesystem::path> leftovers;
+    for (const auto& entry : std::filesystem::directory_iterator{folder, code}) {
+      if (entry.path().extension() == ".tmp") leftovers.push_back(entry.path());
+    }
+    for (const auto& file : leftovers) std::filesystem::remove(file);
   }
 }
 

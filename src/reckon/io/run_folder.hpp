@@ -49,6 +49,8 @@ class RunFolder {
   void create() const;
   /// Removes the files of a run, and nothing else.
   void remove_run() const;
+  /// Removes the temporary files that a killed run may have left.
+  void remove_leftovers() const;
 
  private:
   std::filesystem::path root_;
