@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -33,6 +34,7 @@ class Process {
     const int out_file = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     const int err_file = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (::chdir(folder_.c_str()) == 0 && ::dup2(out_file, 1) == 1 && ::dup2(err_file, 2) == 2) {
+      ::setenv("OMP_NUM_THREADS", "1", 0);  // small scenes on a busy machine
       ::execv(argv[0], argv.data());
     }
     ::_exit(127);

@@ -110,8 +110,7 @@ class Collector {
       needed_ = true;
     }
     schema_.rows.push_back(
-        {table_, std::string{key.name}, std::string{type},
-         std::string{key.unit_note.empty() ? key.unit : key.unit_note}, std::move(standard),
+        {table_, std::string{key.name}, std::string{type}, unit_of(key, type), std::move(standard),
          range.empty() ? describe(key.range) : std::move(range), std::string{key.meaning}});
   }
   template <class Body>

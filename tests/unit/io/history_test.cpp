@@ -72,7 +72,7 @@ TEST_F(HistoryTest, NumbersReadBackAsTheSameBits) {
 TEST_F(HistoryTest, GoesOnFromTheRowsThatAreKept) {
   {
     HistoryFile file{path_, walls};
-    for (const std::uint64_t step : {0, 10, 20, 30}) file.append(measurement_at(step), 0);
+    for (const std::uint64_t step : {0U, 10U, 20U, 30U}) file.append(measurement_at(step), 0);
   }
   const std::string whole = read_file(path_);
   std::ofstream{path_, std::ios::app} << "40,4.0,0.33";  // a row cut short by a power failure

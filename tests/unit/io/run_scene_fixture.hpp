@@ -14,6 +14,7 @@
 #include "reckon/io/run.hpp"
 #include "reckon/io/run_folder.hpp"
 #include "reckon/io/scene_loader.hpp"
+#include "reckon/parallel/threads.hpp"
 #include "support/test_shapes.hpp"
 
 namespace reckon::testing {
@@ -23,6 +24,7 @@ namespace reckon::testing {
 class RunSceneTest : public ::testing::Test {
  protected:
   void SetUp() override {
+    set_thread_count(1);  // small scenes on a busy machine: threads would mostly wait
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     root_ = std::filesystem::path{::testing::TempDir()} /
             (std::string{info->test_suite_name()} + "." + info->name());
