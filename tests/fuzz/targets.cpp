@@ -6,7 +6,17 @@
 namespace reckon::fuzz {
 
 std::vector<Target> all_targets() {
-  return {scene_target(), stl_target(), obj_target(), ply_target(), spherical_harmonics_target()};
+  return {scene_target(),
+          stl_target(),
+          obj_target(),
+          ply_target(),
+          spherical_harmonics_target(),
+          legacy_morphology_target(),
+          legacy_shape_target(),
+          legacy_positions_target(),
+          legacy_rotations_target(),
+          level_set_text_target(),
+          shape_library_target()};
 }
 
 }  // namespace reckon::fuzz

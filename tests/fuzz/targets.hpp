@@ -11,5 +11,11 @@ namespace reckon::fuzz {
 [[nodiscard]] Target obj_target();
 [[nodiscard]] Target ply_target();
 [[nodiscard]] Target spherical_harmonics_target();
+[[nodiscard]] Target legacy_morphology_target();
+[[nodiscard]] Target legacy_shape_target();
+[[nodiscard]] Target legacy_positions_target();
+[[nodiscard]] Target legacy_rotations_target();
+[[nodiscard]] Target level_set_text_target();
+[[nodiscard]] Target shape_library_target();
 
 }  // namespace reckon::fuzz

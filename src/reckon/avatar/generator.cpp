@@ -189,7 +189,7 @@ Vec3 form_factors(const Vec3& extents, const Form& form) {
   for (std::size_t rank = 0; rank < 3; ++rank) {
     factors[by_size[rank]] = wanted[rank] / extents[by_size[rank]];
   }
-  return factors / portable::pow(factors.x * factors.y * factors.z, 1.0 / 3);
+  return factors / portable::cbrt(factors.x * factors.y * factors.z);
 }
 
 /// The half spaces after moving the centroid to the origin and scaling along the principal axes.
@@ -267,7 +267,7 @@ TriangleMesh generate_grain(const GrainStatistics& statistics, std::uint64_t see
   grain = scaled(std::move(grain), form_factors(extents_of(grain), form));
   const double volume = solid_properties(grain).volume;
   const double target = std::numbers::pi / 6 * form.diameter * form.diameter * form.diameter;
-  const double size = portable::pow(target / volume, 1.0 / 3);
+  const double size = portable::cbrt(target / volume);
   return to_principal_frame(scaled(std::move(grain), {size, size, size}));
 }
 

@@ -19,6 +19,12 @@ enum class MasterRule {
   both       ///< both ways, each with half weight
 };
 
+/// How touching nodes are found. Both give the same bits.
+enum class ContactEngine {
+  near,  ///< remembers which nodes are near a partner and for how long they cannot touch
+  plain  ///< tests every node of every listed pair at every step: slow, simple, the oracle
+};
+
 /// How two grains touch.
 struct ContactSettings {
   AnyContactLaw law;

@@ -3,6 +3,7 @@
 #include "reckon/contact/grain_contacts.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "reckon/contact/pair_kernel.hpp"
 #include "reckon/parallel/threads.hpp"
@@ -10,7 +11,8 @@
 namespace reckon {
 namespace {
 
-constexpr std::size_t pairs_per_task = 32;
+constexpr std::size_t pairs_per_task = 64;
+constexpr double awake = -std::numeric_limits<double>::infinity();
 
 RigidMotion motion_of(const GrainFrame& grain) {
   return {grain.position, grain.velocity, grain.angular_velocity_world};
@@ -44,6 +46,8 @@ void GrainContacts::rebuild(std::span<const GrainFrame> frames, double skin) {
   }
   std::vector<Pair> pairs = find_pairs(ids, positions, radii, skin);
   std::vector<SpringRange> springs(pairs.size());
+  std::vector<double> wake(pairs.size(), awake);
+  std::vector<NearPair> near(pairs.size());
   std::size_t old = 0;  // both lists are sorted by ids
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     while (old < pairs_.size() &&
@@ -53,17 +57,24 @@ void GrainContacts::rebuild(std::span<const GrainFrame> frames, double skin) {
     if (old < pairs_.size() && pairs_[old].id_a == pairs[p].id_a &&
         pairs_[old].id_b == pairs[p].id_b) {
       springs[p] = springs_of_pair_[old];
+      wake[p] = wake_[old];
+      near[p] = std::move(near_[old]);
     }
   }
   pairs_ = std::move(pairs);
   springs_of_pair_ = std::move(springs);
+  wake_ = std::move(wake);
+  near_ = std::move(near);
+  // A sleeping pair writes neither.
+  new_springs_of_pair_.assign(pairs_.size(), {});
+  forces_.assign(pairs_.size(), {});
   pairs_of_grain_ = index_pairs(pairs_, frames.size());
 }
 
-template <ContactLaw Law>
+template <ContactLaw Law, class Find>
 PairForce GrainContacts::evaluate_pair(const Law& law, const GrainFrame& a, const GrainFrame& b,
                                        std::span<const NodeSpring> old_springs, double time_step,
-                                       std::vector<Touch>& touches,
+                                       Find&& find, std::vector<Touch>& touches,
                                        std::vector<NodeSpring>& new_springs) const {
   PairForce pair;
   const PairContext context{.effective_mass = a.mass * b.mass / (a.mass + b.mass),
@@ -76,7 +87,7 @@ PairForce GrainContacts::evaluate_pair(const Law& law, const GrainFrame& a, cons
     const GrainFrame& master = master_is_b ? b : a;
     const GrainFrame& slave = master_is_b ? a : b;
     touches.clear();
-    find_touches(master, slave, touches);
+    find(master, slave, master_is_b, touches);
     const auto old = master_is_b ? old_springs.subspan(a_count) : old_springs.first(a_count);
     if (touches.empty() && old.empty()) return;
     add_directed(pair,
@@ -99,24 +110,61 @@ PairForce GrainContacts::evaluate_pair(const Law& law, const GrainFrame& a, cons
   return pair;
 }
 
+template <ContactLaw Law>
+void GrainContacts::evaluate_pairs(const Law& law, std::span<const GrainFrame> frames,
+                                   double time_step, bool use_near_lists) {
+  const std::span<const double> travelled = meter_.travelled();
+  parallel_for(pairs_.size(), pairs_per_task, [&](std::size_t p) {
+    const Pair& pair = pairs_[p];
+    const double odometer = use_near_lists ? travelled[pair.slot_a] + travelled[pair.slot_b] : 0;
+    if (odometer < wake_[p]) return;
+    Scratch& mine = scratch_[static_cast<std::size_t>(thread_index())];
+    ++mine.counters.awake;
+    const auto old_springs = store_.read(springs_of_pair_[p]);
+    double wake = std::numeric_limits<double>::infinity();
+    const auto find = [&](const GrainFrame& master, const GrainFrame& slave, bool master_is_b,
+                          std::vector<Touch>& touches) {
+      if (!use_near_lists) {
+        find_touches(master, slave, touches);
+        wake = awake;
+        return;
+      }
+      NearList& list = master_is_b ? near_[p].of_b : near_[p].of_a;
+      wake = std::min(wake, list.find_touches(master, slave, odometer, touches, mine.counters));
+    };
+    new_springs_of_pair_[p] = store_.append([&](std::vector<NodeSpring>& arena) {
+      forces_[p] = evaluate_pair(law, frames[pair.slot_a], frames[pair.slot_b], old_springs,
+                                 time_step, find, mine.touches, arena);
+    });
+    // A pair that lets go of springs is looked at once more, so that both buffers are empty when
+    // it falls asleep.
+    wake_[p] = old_springs.empty() ? wake : awake;
+    mine.counters.touching_nodes += forces_[p].touching;
+    if (forces_[p].touching > 0) ++mine.counters.touching_pairs;
+  });
+}
+
 void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_step) {
-  forces_.resize(pairs_.size());
-  new_springs_of_pair_.resize(pairs_.size());
+  bool use_near_lists = false;
+  if (engine_ == ContactEngine::near) {
+    use_near_lists = meter_.follow(frames);
+    if (!use_near_lists) forget_near_lists();
+  }
   store_.begin_writing(thread_count());
-  std::vector<std::vector<Touch>> scratch(static_cast<std::size_t>(thread_count()));
-  std::visit(
-      [&](const auto& law) {
-        parallel_for(pairs_.size(), pairs_per_task, [&](std::size_t p) {
-          const Pair& pair = pairs_[p];
-          const auto old_springs = store_.read(springs_of_pair_[p]);
-          auto& touches = scratch[static_cast<std::size_t>(thread_index())];
-          new_springs_of_pair_[p] = store_.append([&](std::vector<NodeSpring>& arena) {
-            forces_[p] = evaluate_pair(law, frames[pair.slot_a], frames[pair.slot_b], old_springs,
-                                       time_step, touches, arena);
-          });
-        });
-      },
-      settings_.law);
+  scratch_.resize(static_cast<std::size_t>(thread_count()));
+  std::visit([&](const auto& law) { evaluate_pairs(law, frames, time_step, use_near_lists); },
+             settings_.law);
+  ++counters_.evaluations;
+  counters_.pairs += pairs_.size();
+  for (Scratch& scratch : scratch_) {
+    counters_ += scratch.counters;
+    scratch.counters = {};
+  }
+}
+
+void GrainContacts::forget_near_lists() {
+  std::fill(wake_.begin(), wake_.end(), awake);
+  for (NearPair& pair : near_) pair = {};
 }
 
 void GrainContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const {
@@ -162,6 +210,9 @@ void GrainContacts::restore(std::span<const PairSprings> springs) {
       arena.insert(arena.end(), pair.springs.begin(), pair.springs.end());
     }));
   }
+  wake_.assign(pairs_.size(), awake);
+  near_.clear();
+  near_.resize(pairs_.size());
   store_.commit();
 }
 

@@ -6,8 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "reckon/contact/contact_counters.hpp"
 #include "reckon/contact/contact_settings.hpp"
 #include "reckon/contact/history.hpp"
+#include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/near_list.hpp"
 #include "reckon/contact/touch.hpp"
 #include "reckon/grains/grain_frame.hpp"
 #include "reckon/neighbor/pair_list.hpp"
@@ -37,9 +40,18 @@ struct PairSprings {
 ///
 /// A step is evaluate(), then add_loads(), then commit(). Without commit() the springs stay those
 /// of the last step, so forces can be looked at without moving on.
+///
+/// With ContactEngine::near a pair sleeps while nothing can touch and it holds no springs:
+///
+///   asleep: odometer (sum of what both grains travelled) < wake_[pair]; forces and springs empty
+///   awake:  its near lists are asked, its nodes respond
+///
+/// The meter and the lists are derived from the frames alone. They are in no checkpoint, and no
+/// answer depends on them.
 class GrainContacts {
  public:
-  explicit GrainContacts(ContactSettings settings) : settings_{std::move(settings)} {}
+  explicit GrainContacts(ContactSettings settings, ContactEngine engine = ContactEngine::near)
+      : settings_{std::move(settings)}, engine_{engine} {}
 
   /// Lists the pairs anew from where the grains are now; touching pairs keep their springs.
   void rebuild(std::span<const GrainFrame> frames, double skin);
@@ -56,6 +68,7 @@ class GrainContacts {
 
   [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
   [[nodiscard]] std::span<const PairForce> forces() const { return forces_; }
+  [[nodiscard]] const ContactCounters& counters() const { return counters_; }
 
   /// Springs of all touching pairs, sorted by (id_a, id_b).
   [[nodiscard]] std::vector<PairSprings> springs() const;
@@ -64,18 +77,40 @@ class GrainContacts {
   void restore(std::span<const PairSprings> springs);
 
  private:
+  /// What one thread works with.
+  struct alignas(64) Scratch {
+    std::vector<Touch> touches;
+    ContactCounters counters;
+  };
+  /// Near lists of one pair: a's nodes on b, b's nodes on a; most rules use one.
+  struct NearPair {
+    NearList of_a;
+    NearList of_b;
+  };
+
+  void forget_near_lists();
   template <ContactLaw Law>
+  void evaluate_pairs(const Law& law, std::span<const GrainFrame> frames, double time_step,
+                      bool use_near_lists);
+  template <ContactLaw Law, class Find>
   PairForce evaluate_pair(const Law& law, const GrainFrame& a, const GrainFrame& b,
-                          std::span<const NodeSpring> old_springs, double time_step,
+                          std::span<const NodeSpring> old_springs, double time_step, Find&& find,
                           std::vector<Touch>& touches, std::vector<NodeSpring>& new_springs) const;
 
   ContactSettings settings_;
+  ContactEngine engine_;
   std::vector<Pair> pairs_;
   PairsOfGrain pairs_of_grain_;
   std::vector<SpringRange> springs_of_pair_;  // in store_, as of the last commit
   std::vector<SpringRange> new_springs_of_pair_;
   std::vector<PairForce> forces_;
   SpringStore store_;
+
+  MotionMeter meter_;
+  std::vector<double> wake_;    // per pair: odometer reading; minus infinity: awake
+  std::vector<NearPair> near_;  // per pair
+  std::vector<Scratch> scratch_;
+  ContactCounters counters_;
 };
 
 }  // namespace reckon

@@ -2,23 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/contact/pair_kernel.hpp"
 
+#include "reckon/contact/placement.hpp"
+
 namespace reckon {
 
 void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector<Touch>& touches) {
   const ShapeView& shape = *master.shape;
   const ShapeView& other = *slave.shape;
-  const Vec3 offset_world = master.position - slave.position;
-  const double reach = shape.bounding_radius + other.bounding_radius;
-  if (!(squared_norm(offset_world) < reach * reach)) return;
-
-  // Node of the master in the slave's body frame: turn * node + shift.
-  const Mat3 to_slave = transpose(slave.rotation);
-  const Mat3 turn = to_slave * master.rotation;
-  const Vec3 shift = to_slave * offset_world;
+  if (!spheres_meet(master.position - slave.position, shape, other)) return;
+  const Placement at = place(master, slave);
   const double radius_squared = other.bounding_radius * other.bounding_radius;
   for (std::size_t n = 0; n < shape.node_x.size(); ++n) {
     const Vec3 node_body{shape.node_x[n], shape.node_y[n], shape.node_z[n]};
-    const Vec3 point = turn * node_body + shift;
+    const Vec3 point = at.turn * node_body + at.shift;
     if (!(squared_norm(point) < radius_squared)) continue;
     const auto sample = other.level_set.sample(point);
     if (!sample.inside_grid || !(sample.phi < 0)) continue;

@@ -67,6 +67,11 @@ class Communicator {
   /// Alltoallv of the contents).
   [[nodiscard]] std::vector<Bytes> all_to_all(const std::vector<Bytes>& outgoing) const;
 
+  /// outgoing[k] goes to peers[k]; returns what came from each peer. Point to point: only these
+  /// ranks take part, and each must be among its peers' peers.
+  [[nodiscard]] std::vector<Bytes> exchange(std::span<const int> peers,
+                                            const std::vector<Bytes>& outgoing) const;
+
   /// Prepares messages to be sent again and again. Two ranks must name each other in the same
   /// order; `tag` tells exchanges apart.
   [[nodiscard]] RepeatedExchange repeated_exchange(std::span<const Channel> send,
@@ -79,6 +84,7 @@ class Communicator {
 
  private:
   friend class ParallelSession;
+  friend struct MpiAccess;
   explicit Communicator(std::shared_ptr<const Impl> impl) : impl_{std::move(impl)} {}
   std::shared_ptr<const Impl> impl_;
 };

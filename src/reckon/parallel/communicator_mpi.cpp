@@ -11,15 +11,9 @@
 
 #include "reckon/core/error.hpp"
 #include "reckon/parallel/communicator.hpp"
+#include "reckon/parallel/mpi_handle.hpp"
 
 namespace reckon {
-
-/// No impl: one rank, alone, and no MPI call is made, so a plain serial run needs no MPI start.
-struct Communicator::Impl {
-  MPI_Comm handle;
-  int rank;
-  int size;
-};
 
 struct RepeatedExchange::Impl {
   std::vector<MPI_Request> requests;
@@ -141,6 +135,35 @@ std::vector<Bytes> Communicator::all_to_all(const std::vector<Bytes>& outgoing) 
     const auto first = received.begin() + receive_offsets[r];
     incoming[r].assign(first, first + receive_counts[r]);
   }
+  return incoming;
+}
+
+std::vector<Bytes> Communicator::exchange(std::span<const int> peers,
+                                          const std::vector<Bytes>& outgoing) const {
+  if (!impl_) return outgoing;
+  constexpr int length_tag = 1;
+  constexpr int content_tag = 2;
+  const std::size_t count = peers.size();
+  std::vector<std::int64_t> send_lengths(count);
+  std::vector<std::int64_t> receive_lengths(count);
+  std::vector<MPI_Request> requests(2 * count);
+  for (std::size_t k = 0; k < count; ++k) {
+    send_lengths[k] = checked_count(outgoing[k].size());
+    MPI_Irecv(&receive_lengths[k], 1, MPI_INT64_T, peers[k], length_tag, impl_->handle,
+              &requests[2 * k]);
+    MPI_Isend(&send_lengths[k], 1, MPI_INT64_T, peers[k], length_tag, impl_->handle,
+              &requests[2 * k + 1]);
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  std::vector<Bytes> incoming(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    incoming[k].resize(static_cast<std::size_t>(receive_lengths[k]));
+    MPI_Irecv(incoming[k].data(), static_cast<int>(receive_lengths[k]), MPI_BYTE, peers[k],
+              content_tag, impl_->handle, &requests[2 * k]);
+    MPI_Isend(outgoing[k].data(), static_cast<int>(send_lengths[k]), MPI_BYTE, peers[k],
+              content_tag, impl_->handle, &requests[2 * k + 1]);
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   return incoming;
 }
 

@@ -121,9 +121,10 @@ struct LevelSetView {
   }
 };
 
-/// The largest gradient norm that trilinear interpolation of `grid` can reach anywhere: per cell,
-/// each component of the gradient is bounded by the steepest of the cell's four edges along it.
-/// |phi(a) - phi(b)| <= lipschitz_constant(grid) * |a - b| for any two points in the grid.
+/// The largest gradient norm that trilinear interpolation of `grid` reaches in any cell that is not
+/// wholly inside the grain. A point of the grid with phi = d >= 0 is therefore at least
+/// d / lipschitz_constant(grid) away from every point with phi < 0. (In a cell the gradient is
+/// linear along each axis, so its norm is largest at a vertex.)
 [[nodiscard]] double lipschitz_constant(const LevelSetView& grid);
 
 }  // namespace reckon

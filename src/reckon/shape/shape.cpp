@@ -3,6 +3,7 @@
 #include "reckon/shape/shape.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace reckon {
@@ -11,25 +12,21 @@ double lipschitz_constant(const LevelSetView& grid) {
   double steepest_squared = 0;
   const auto nx = static_cast<std::size_t>(grid.dims[0]);
   const auto nxy = nx * static_cast<std::size_t>(grid.dims[1]);
-  const auto edge = [&](std::size_t from, std::size_t to) {
-    return std::abs(double{grid.values[to]} - double{grid.values[from]});
-  };
   for (std::int32_t k = 0; k + 1 < grid.dims[2]; ++k) {
     for (std::int32_t j = 0; j + 1 < grid.dims[1]; ++j) {
       for (std::int32_t i = 0; i + 1 < grid.dims[0]; ++i) {
         const std::size_t b = static_cast<std::size_t>(i) + nx * static_cast<std::size_t>(j) +
                               nxy * static_cast<std::size_t>(k);
-        const double along_x =
-            std::max({edge(b, b + 1), edge(b + nx, b + nx + 1), edge(b + nxy, b + nxy + 1),
-                      edge(b + nx + nxy, b + nx + nxy + 1)});
-        const double along_y =
-            std::max({edge(b, b + nx), edge(b + 1, b + 1 + nx), edge(b + nxy, b + nxy + nx),
-                      edge(b + 1 + nxy, b + 1 + nxy + nx)});
-        const double along_z =
-            std::max({edge(b, b + nxy), edge(b + 1, b + 1 + nxy), edge(b + nx, b + nx + nxy),
-                      edge(b + 1 + nx, b + 1 + nx + nxy)});
-        steepest_squared =
-            std::max(steepest_squared, along_x * along_x + along_y * along_y + along_z * along_z);
+        std::array<double, 8> corner;  // bit 0: one step along x, bit 1: y, bit 2: z
+        for (std::size_t c = 0; c < 8; ++c) {
+          corner[c] = grid.values[b + (c & 1) + (c >> 1 & 1) * nx + (c >> 2) * nxy];
+        }
+        if (*std::max_element(corner.begin(), corner.end()) < 0) continue;
+        for (std::size_t c = 0; c < 8; ++c) {
+          const Vec3 slopes{corner[c ^ 1] - corner[c], corner[c ^ 2] - corner[c],
+                            corner[c ^ 4] - corner[c]};
+          steepest_squared = std::max(steepest_squared, squared_norm(slopes));
+        }
       }
     }
   }

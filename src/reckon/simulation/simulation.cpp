@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "reckon/core/error.hpp"
+#include "reckon/core/stopwatch.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
@@ -15,7 +16,7 @@ namespace reckon {
 Simulation::Simulation(SimulationSetup setup, const SimulationState& state)
     : setup_{std::move(setup)},
       shapes_{setup_.shapes->begin(), setup_.shapes->end()},
-      grain_contacts_{setup_.contact},
+      grain_contacts_{setup_.contact, setup_.engine},
       wall_contacts_{setup_.walls},
       step_{state.step} {
   for (const GrainState& grain : state.grains) grains_.push_back(grain);
@@ -24,14 +25,22 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state)
 }
 
 void Simulation::step() {
+  Stopwatch watch;
   place_frames();
+  phase_times_.frames += watch.lap();
   if (lists_are_stale()) rebuild_lists();
-  evaluate_contacts();
+  phase_times_.lists += watch.lap();
+  grain_contacts_.evaluate(frames_, setup_.time_step);
+  phase_times_.grain_contacts += watch.lap();
+  wall_contacts_.evaluate(frames_, setup_.time_step);
+  phase_times_.wall_contacts += watch.lap();
   sum_loads(grains_.ledger);
+  phase_times_.loads += watch.lap();
   advance_grains();
   commit_springs();
   ++step_;
   require_finite_motion();
+  phase_times_.motion += watch.lap();
 }
 
 void Simulation::place_frames() {
@@ -62,11 +71,6 @@ void Simulation::rebuild_lists() {
   }
   lists_exist_ = true;
   ++list_rebuilds_;
-}
-
-void Simulation::evaluate_contacts() {
-  grain_contacts_.evaluate(frames_, setup_.time_step);
-  wall_contacts_.evaluate(frames_, setup_.time_step);
 }
 
 void Simulation::sum_loads(std::span<EnergyLedger> ledgers) {
@@ -140,7 +144,8 @@ void Simulation::require_finite_motion() const {
 void Simulation::refresh_contacts() {
   place_frames();
   if (lists_are_stale()) rebuild_lists();
-  evaluate_contacts();
+  grain_contacts_.evaluate(frames_, setup_.time_step);
+  wall_contacts_.evaluate(frames_, setup_.time_step);
 }
 
 SimulationState Simulation::state() const {

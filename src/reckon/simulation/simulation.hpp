@@ -13,6 +13,7 @@
 #include "reckon/motion/body_force.hpp"
 #include "reckon/motion/integrator.hpp"
 #include "reckon/simulation/measurement.hpp"
+#include "reckon/simulation/phase_times.hpp"
 
 namespace reckon {
 
@@ -26,6 +27,7 @@ struct SimulationSetup {
   double damping{0};    ///< global damping xi [1/s]
   double time_step{0};  ///< [s]
   double skin{0};       ///< of the pair lists; changes the speed, never the answer [m]
+  ContactEngine engine{ContactEngine::near};  ///< likewise
 };
 
 /// What changes: all that a checkpoint must hold to go on to the same bits.
@@ -69,6 +71,7 @@ class Simulation {
   [[nodiscard]] std::uint64_t step_number() const { return step_; }
   [[nodiscard]] double time() const { return static_cast<double>(step_) * setup_.time_step; }
   [[nodiscard]] std::uint64_t list_rebuilds() const { return list_rebuilds_; }
+  [[nodiscard]] const PhaseTimes& phase_times() const { return phase_times_; }
   [[nodiscard]] const GrainContacts& grain_contacts() const { return grain_contacts_; }
   [[nodiscard]] const WallContacts& wall_contacts() const { return wall_contacts_; }
   [[nodiscard]] double mass(std::size_t slot) const { return inertia(slot).mass; }
@@ -77,7 +80,6 @@ class Simulation {
   void place_frames();
   [[nodiscard]] bool lists_are_stale() const;
   void rebuild_lists();
-  void evaluate_contacts();
   void sum_loads(std::span<EnergyLedger> ledgers);
   void advance_grains();
   void commit_springs();
@@ -100,6 +102,7 @@ class Simulation {
   std::vector<Vec3> listed_wall_displacement_;
   bool lists_exist_{false};
   std::uint64_t list_rebuilds_{0};
+  PhaseTimes phase_times_;
 };
 
 }  // namespace reckon

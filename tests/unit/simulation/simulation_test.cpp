@@ -7,10 +7,13 @@
 #include "reckon/core/error.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "reckon/simulation/placement.hpp"
+#include "support/same_state.hpp"
 #include "support/test_shapes.hpp"
 
 namespace reckon {
 namespace {
+
+using testing::expect_same_state;
 
 constexpr double density = 2000;
 
@@ -46,21 +49,6 @@ SimulationState dropped_grains(const ShapeLibrary& shapes, std::uint32_t count) 
   SimulationState state;
   state.grains = fill_region(fill, shapes, ShapeId{0}, GrainId{0}, 4);
   return state;
-}
-
-void expect_same_state(const SimulationState& a, const SimulationState& b) {
-  EXPECT_EQ(a.step, b.step);
-  ASSERT_EQ(a.grains.size(), b.grains.size());
-  for (std::size_t g = 0; g < a.grains.size(); ++g) EXPECT_EQ(a.grains[g], b.grains[g]);
-  ASSERT_EQ(a.pair_springs.size(), b.pair_springs.size());
-  for (std::size_t p = 0; p < a.pair_springs.size(); ++p) {
-    EXPECT_EQ(a.pair_springs[p].id_a, b.pair_springs[p].id_a);
-    EXPECT_EQ(a.pair_springs[p].springs, b.pair_springs[p].springs);
-  }
-  ASSERT_EQ(a.wall_springs.size(), b.wall_springs.size());
-  for (std::size_t w = 0; w < a.wall_springs.size(); ++w) {
-    EXPECT_EQ(a.wall_springs[w].springs, b.wall_springs[w].springs);
-  }
 }
 
 class ShakenBox : public ::testing::Test {

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "packing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "reckon/avatar/generator.hpp"
+#include "reckon/core/random.hpp"
+#include "reckon/neighbor/pair_list.hpp"
+#include "reckon/simulation/placement.hpp"
+
+namespace reckon::bench {
+namespace {
+
+constexpr std::uint64_t seed = 12;
+
+std::vector<Wall> closed_box(const Vec3& low, const Vec3& high, const Material& material) {
+  std::vector<Wall> walls;
+  const char* const names[] = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {1.0, -1.0}) {
+      Vec3 normal;
+      normal[axis] = side;
+      walls.push_back({std::string{names[axis]} + (side > 0 ? "-" : "+"),
+                       PlaneSurface{side > 0 ? low : high, normal},
+                       material.law,
+                       0.0,
+                       false,
+                       {}});
+    }
+  }
+  return walls;
+}
+
+/// Centres on a cubic lattice whose cells hold the largest grain, or, for smaller grains, several
+/// of them; bounding spheres apart.
+double place_apart(const ShapeLibrary& shapes, std::vector<GrainState>& grains) {
+  std::vector<std::uint32_t> by_size(shapes.size());
+  std::iota(by_size.begin(), by_size.end(), 0U);
+  std::stable_sort(by_size.begin(), by_size.end(), [&](std::uint32_t s, std::uint32_t t) {
+    return shapes[s].bounding_radius > shapes[t].bounding_radius;
+  });
+  double volume = 0;
+  for (const Shape& shape : shapes) volume += std::pow(2.1 * shape.bounding_radius, 3);
+  // A cell of side a is cut into eight when the next grain fits into half of it.
+  const double side = 2.1 * shapes[by_size[0]].bounding_radius;
+  const auto cells_per_edge =
+      static_cast<int>(std::ceil(std::cbrt(volume / (side * side * side)) * 1.02));
+  struct Cell {
+    Vec3 low;
+    double side;
+  };
+  std::vector<Cell> cells;
+  for (int n = cells_per_edge * cells_per_edge * cells_per_edge; n-- > 0;) {
+    const int i = n % cells_per_edge;
+    const int j = n / cells_per_edge % cells_per_edge;
+    const int k = n / cells_per_edge / cells_per_edge;
+    cells.push_back({side * Vec3{double(i), double(j), double(k)}, side});
+  }
+  // Scattered, so that sizes mix.
+  RandomStream random{seed, RandomPurpose::placement, 0};
+  for (std::size_t n = cells.size(); n > 1; --n) {
+    std::swap(cells[n - 1], cells[static_cast<std::size_t>(random.uniform() * double(n))]);
+  }
+  grains.resize(shapes.size());
+  for (const std::uint32_t s : by_size) {
+    const double need = 2.05 * shapes[s].bounding_radius;
+    Cell cell = cells.back();
+    cells.pop_back();
+    while (cell.side / 2 > need) {
+      const double half = cell.side / 2;
+      for (int c = 1; c < 8; ++c) {
+        cells.push_back(
+            {cell.low + half * Vec3{double(c & 1), double(c >> 1 & 1), double(c >> 2)}, half});
+      }
+      cell.side = half;
+    }
+    GrainState& grain = grains[s];
+    grain.id = GrainId{s};
+    grain.shape = ShapeId{s};
+    grain.position = cell.low + 0.5 * cell.side * Vec3{1, 1, 1};
+    grain.orientation = random_orientation(seed, grain.id);
+  }
+  return side * cells_per_edge;
+}
+
+/// Grains of one place get neighbouring ids, as generators and scanners number them.
+void number_by_place(std::vector<GrainState>& grains, double cell) {
+  std::vector<std::uint32_t> order(grains.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto key = [&](std::uint32_t g) {
+    const Vec3& p = grains[g].position;
+    std::uint64_t code = 0;
+    for (int bit = 20; bit >= 0; --bit) {
+      for (const double x : {p.z, p.y, p.x}) {
+        code = code << 1 | (static_cast<std::uint64_t>(std::max(x / cell, 0.0)) >> bit & 1);
+      }
+    }
+    return code;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](auto s, auto t) { return key(s) < key(t); });
+  for (std::uint32_t n = 0; n < order.size(); ++n) grains[order[n]].id = GrainId{n};
+  std::sort(grains.begin(), grains.end(),
+            [](const GrainState& a, const GrainState& b) { return a.id < b.id; });
+}
+
+}  // namespace
+
+ShapeLibrary make_shapes(const std::vector<GrainKind>& kinds, std::uint32_t distinct) {
+  ShapeLibrary shapes;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const GrainKind& kind = kinds[k];
+    GrainStatistics statistics;
+    statistics.median_diameter = kind.diameter;
+    statistics.log_deviation = 0.1;
+    const std::size_t first = shapes.size();
+    for (std::uint32_t n = 0; n < kind.count; ++n) {
+      if (n >= distinct) {
+        shapes.push_back(shapes[first + n % distinct]);
+        continue;
+      }
+      ShapeResolution resolution;
+      resolution.voxels_per_diameter = kind.voxels_per_diameter;
+      resolution.node_count = kind.nodes;
+      shapes.push_back(
+          build_shape(generate_grain(statistics, seed, k * 1000 + n), resolution, "grain"));
+    }
+  }
+  return shapes;
+}
+
+double wall_pressure(const Measurement& now, const Vec3& size) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double area = size[(axis + 1) % 3] * size[(axis + 2) % 3];
+    for (int side = 0; side < 2; ++side) {
+      sum += std::abs(now.wall_force[static_cast<std::size_t>(2 * axis + side)][axis]) / area;
+    }
+  }
+  return sum / 6;
+}
+
+Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& material,
+                double pressure, double time_step, double skin) {
+  Packing packing;
+  const double edge = place_apart(*shapes, packing.state.grains);
+  double smallest = edge;
+  for (const Shape& shape : *shapes) smallest = std::min(smallest, shape.bounding_radius);
+  number_by_place(packing.state.grains, 2 * smallest);
+  packing.high = {edge, edge, edge};
+  packing.setup.shapes = std::move(shapes);
+  packing.setup.density = material.density;
+  packing.setup.contact = {material.law, 0.1, material.master};
+  packing.setup.time_step = time_step;
+  packing.setup.skin = skin;
+  const double step_share = 0.0015 * smallest;  // walls move so far in a step
+  packing.setup.damping = 0.01 / time_step;
+  for (;;) {
+    packing.setup.walls = closed_box(packing.low, packing.high, material);
+    SimulationSetup moving = packing.setup;
+    constexpr int steps = 100;
+    for (std::size_t w = 0; w < 6; ++w) {
+      const Vec3 inward = std::get<PlaneSurface>(moving.walls[w].surface).normal_unit;
+      moving.walls[w].motion = WallMotion{.velocity = (step_share / time_step) * inward};
+    }
+    packing.state.step = 0;
+    Simulation simulation{moving, packing.state};
+    for (int n = 0; n < steps; ++n) simulation.step();
+    packing.state = simulation.state();
+    packing.low += steps * step_share * Vec3{1, 1, 1};
+    packing.high -= steps * step_share * Vec3{1, 1, 1};
+    if (wall_pressure(simulation.measure(), packing.high - packing.low) > pressure) break;
+  }
+  packing.setup.walls = closed_box(packing.low, packing.high, material);
+  packing.setup.contact.friction = material.friction;
+  packing.state.step = 0;
+  Simulation rest{packing.setup, packing.state};
+  for (int n = 0; n < 600; ++n) rest.step();
+  packing.state = rest.state();
+  packing.pressure = wall_pressure(rest.measure(), packing.high - packing.low);
+  return packing;
+}
+
+}  // namespace reckon::bench

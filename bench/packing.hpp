@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "reckon/avatar/shape_builder.hpp"
+#include "reckon/simulation/simulation.hpp"
+
+namespace reckon::bench {
+
+/// Sand-like grains of equal mean diameter.
+struct GrainKind {
+  double diameter{2};  ///< of the sphere of equal volume [m]
+  std::uint32_t count{0};
+  std::uint32_t nodes{279};
+  double voxels_per_diameter{18};
+};
+
+/// One shape per grain, each with memory of its own, as in a run on scanned grains. Only `distinct`
+/// forms are generated per kind and then copied: the machine cannot tell.
+[[nodiscard]] ShapeLibrary make_shapes(const std::vector<GrainKind>& kinds, std::uint32_t distinct);
+
+/// What holds for a workload from its packing to its measurement.
+struct Material {
+  AnyContactLaw law;
+  double friction{0.5};
+  double density{1000};  ///< [kg/m^3]
+  MasterRule master{MasterRule::lower_id};
+};
+
+/// Grains in a closed box at rest under pressure.
+struct Packing {
+  SimulationSetup setup;  ///< walls stand still
+  SimulationState state;
+  Vec3 low;            ///< of the box [m]
+  Vec3 high;           ///< [m]
+  double pressure{0};  ///< mean normal stress on the walls [Pa]
+};
+
+/// Packs one grain per shape: placed apart, larger ones first, in a loose cube, which is then
+/// squeezed from all sides, with little friction and much damping, until the walls bear `pressure`.
+[[nodiscard]] Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& material,
+                              double pressure, double time_step, double skin);
+
+/// Mean normal stress on the six walls of a box [Pa].
+[[nodiscard]] double wall_pressure(const Measurement& now, const Vec3& size);
+
+}  // namespace reckon::bench

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/domain/balanced_decomposition.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reckon {
+namespace {
+
+constexpr double most_imbalance = 1.10;  // largest cost of a rank / mean cost
+
+/// This rank's cost as a share of the mean, the largest over all ranks.
+double imbalance(const Communicator& ranks, std::span<const double> costs) {
+  double own = 0;
+  for (const double cost : costs) own += cost;
+  // Costs are small whole numbers or nearly so; a fixed-point sum is the same on every rank.
+  std::int64_t total = std::llround(own * 1024);
+  ranks.sum({&total, 1});
+  if (total == 0) return 1;
+  return ranks.max(own) * ranks.size() / (static_cast<double>(total) / 1024);
+}
+
+}  // namespace
+
+void BalancedDecomposition::update(std::span<const Vec3> positions, std::span<const double> costs,
+                                   double reach) {
+  reach_ = reach;
+  if (ranks_.size() == 1) {
+    regions_.assign(1, Region{});
+    return;
+  }
+  if (!regions_.empty() && imbalance(ranks_, costs) <= most_imbalance) return;
+  regions_ = bisect(ranks_, positions, costs, ranks_.size());
+}
+
+int BalancedDecomposition::owner_of(GrainId /*id*/, const Vec3& position) const {
+  const auto own = static_cast<std::size_t>(ranks_.rank());
+  if (regions_[own].contains(position)) return ranks_.rank();
+  const auto found = std::find_if(regions_.begin(), regions_.end(),
+                                  [&](const Region& r) { return r.contains(position); });
+  return found != regions_.end() ? static_cast<int>(found - regions_.begin()) : ranks_.rank();
+}
+
+std::unique_ptr<Ghosts> BalancedDecomposition::exchange_ghosts(
+    std::vector<BorderGrain> owned) const {
+  const GhostExchange::Choose to_all_within_reach = [this](std::span<const BorderGrain> known) {
+    GhostExchange::Sends sends;
+    const Region& own = regions_[static_cast<std::size_t>(ranks_.rank())];
+    for (int rank = 0; rank < ranks_.size(); ++rank) {
+      const Region& other = regions_[static_cast<std::size_t>(rank)];
+      if (rank == ranks_.rank() || !own.within(other, reach_)) continue;
+      sends.peers.push_back(rank);
+      auto& indices = sends.indices.emplace_back();
+      for (std::uint32_t n = 0; n < known.size(); ++n) {
+        if (other.squared_distance(known[n].state.position) <= reach_ * reach_) {
+          indices.push_back(n);
+        }
+      }
+    }
+    return sends;
+  };
+  return std::make_unique<GhostExchange>(ranks_, std::move(owned),
+                                         std::span{&to_all_within_reach, 1});
+}
+
+}  // namespace reckon

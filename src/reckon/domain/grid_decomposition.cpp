@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/domain/grid_decomposition.hpp"
+
+namespace reckon {
+
+void GridDecomposition::update(std::span<const Vec3> positions, std::span<const double> /*costs*/,
+                               double reach) {
+  Region domain = bounding_region(positions);
+  for (int axis = 0; axis < 3; ++axis) {
+    domain.low[axis] = -ranks_.max(-domain.low[axis]);
+    domain.high[axis] = ranks_.max(domain.high[axis]);
+  }
+  // The grid stays while the assembly stays within a bin of it: a grid drawn anew sends many grains
+  // to other ranks.
+  const double slack = reach_;
+  bool keep = reach == reach_ && !domain_.empty();
+  for (int axis = 0; axis < 3; ++axis) {
+    keep = keep && domain.low[axis] > domain_.low[axis] - slack &&
+           domain.low[axis] < domain_.low[axis] + slack &&
+           domain.high[axis] < domain_.high[axis] + slack &&
+           domain.high[axis] > domain_.high[axis] - slack;
+  }
+  if (keep) return;
+  domain_ = domain;
+  reach_ = reach;
+  cut_ = cut_grid(domain, ranks_.size(), reach);
+}
+
+GhostExchange::Sends GridDecomposition::border_layer(int axis,
+                                                     std::span<const BorderGrain> known) const {
+  GhostExchange::Sends sends;
+  if (ranks_.rank() >= cut_.block_count()) return sends;
+  const auto a = static_cast<std::size_t>(axis);
+  const std::array<int, 3> place = cut_.block_place(ranks_.rank());
+  const int first = cut_.first_bin(axis, place[a]);
+  const int last = cut_.first_bin(axis, place[a] + 1) - 1;
+  const auto add_neighbor = [&](int step, int border_bin) {
+    std::array<int, 3> neighbor = place;
+    neighbor[a] += step;
+    if (neighbor[a] < 0 || neighbor[a] >= cut_.blocks[a]) return;
+    sends.peers.push_back(cut_.block_at(neighbor));
+    auto& indices = sends.indices.emplace_back();
+    for (std::uint32_t n = 0; n < known.size(); ++n) {
+      if (cut_.bin_of(axis, known[n].state.position[axis]) == border_bin) indices.push_back(n);
+    }
+  };
+  add_neighbor(-1, first);
+  add_neighbor(+1, last);
+  return sends;
+}
+
+std::unique_ptr<Ghosts> GridDecomposition::exchange_ghosts(std::vector<BorderGrain> owned) const {
+  std::vector<GhostExchange::Choose> phases;
+  for (int axis = 0; axis < 3; ++axis) {
+    phases.emplace_back(
+        [this, axis](std::span<const BorderGrain> known) { return border_layer(axis, known); });
+  }
+  return std::make_unique<GhostExchange>(ranks_, std::move(owned), phases);
+}
+
+}  // namespace reckon
