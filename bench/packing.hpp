@@ -39,8 +39,8 @@ struct Packing {
   double pressure{0};  ///< mean normal stress on the walls [Pa]
 };
 
-/// Packs one grain per shape: placed apart, larger ones first, in a loose cube, which is then
-/// squeezed from all sides, with little friction and much damping, until the walls bear `pressure`.
+/// Packs one grain per shape: placed apart, larger ones first, in a loose cube, which then shrinks,
+/// without friction and with much damping, until the walls bear `pressure`.
 [[nodiscard]] Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& material,
                               double pressure, double time_step, double skin);
 

@@ -25,7 +25,10 @@ Workload sheared(Packing packing, double inertial_number) {
   walls[4].motion = WallMotion{.velocity = {0, 0, -0.5 * rate * size.z}};
   walls[5].motion = WallMotion{.velocity = {0, 0, 0.5 * rate * size.z}};
   packing.setup.damping = 1;
-  return {std::move(packing.setup), std::move(packing.state), inertial_number, 0};
+  double volume = 0;
+  for (const Shape& shape : *packing.setup.shapes) volume += shape.mass.volume;
+  return {std::move(packing.setup), std::move(packing.state), inertial_number,
+          volume / (size.x * size.y * size.z)};
 }
 
 const Material stiff_sand{.law = LinearLaw{1e8, 0.9e8, 0, 0}};
@@ -38,7 +41,7 @@ std::shared_ptr<const ShapeLibrary> library(const std::vector<GrainKind>& kinds,
 }
 
 Workload dense(std::uint32_t grains) {
-  return sheared(squeeze(library({{diameter, grains, 279, 18}}, 32), stiff_sand, stiff_pressure,
+  return sheared(squeeze(library({{diameter, grains, 279, 18}}, 12), stiff_sand, stiff_pressure,
                          stiff_time_step, skin),
                  1e-3);
 }
@@ -65,7 +68,7 @@ Workload graded(std::uint32_t grains) {
 Workload settle(std::uint32_t grains) {
   Workload work;
   const AreaLaw law{2e7, 1.8e7, area_dashpot_factor(0.5)};
-  work.setup.shapes = library({{diameter, grains, 279, 18}}, 32);
+  work.setup.shapes = library({{diameter, grains, 279, 18}}, 12);
   work.setup.density = 1000;
   work.setup.contact = {law, 0.5, MasterRule::lower_id};
   const double edge = 0.8 * diameter * std::cbrt(static_cast<double>(grains)) * 1.2;

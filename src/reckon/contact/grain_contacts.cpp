@@ -3,8 +3,8 @@
 #include "reckon/contact/grain_contacts.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "reckon/contact/near_skin.hpp"
 #include "reckon/contact/pair_kernel.hpp"
 #include "reckon/parallel/threads.hpp"
 
@@ -12,7 +12,6 @@ namespace reckon {
 namespace {
 
 constexpr std::size_t pairs_per_task = 64;
-constexpr double awake = -std::numeric_limits<double>::infinity();
 
 RigidMotion motion_of(const GrainFrame& grain) {
   return {grain.position, grain.velocity, grain.angular_velocity_world};
@@ -46,7 +45,7 @@ void GrainContacts::rebuild(std::span<const GrainFrame> frames, double skin) {
   }
   std::vector<Pair> pairs = find_pairs(ids, positions, radii, skin);
   std::vector<SpringRange> springs(pairs.size());
-  std::vector<double> wake(pairs.size(), awake);
+  std::vector<double> wake(pairs.size(), wake_always);
   std::vector<NearPair> near(pairs.size());
   std::size_t old = 0;  // both lists are sorted by ids
   for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -121,12 +120,12 @@ void GrainContacts::evaluate_pairs(const Law& law, std::span<const GrainFrame> f
     Scratch& mine = scratch_[static_cast<std::size_t>(thread_index())];
     ++mine.counters.awake;
     const auto old_springs = store_.read(springs_of_pair_[p]);
-    double wake = std::numeric_limits<double>::infinity();
+    double wake = wake_never;
     const auto find = [&](const GrainFrame& master, const GrainFrame& slave, bool master_is_b,
                           std::vector<Touch>& touches) {
       if (!use_near_lists) {
         find_touches(master, slave, touches);
-        wake = awake;
+        wake = wake_always;
         return;
       }
       NearList& list = master_is_b ? near_[p].of_b : near_[p].of_a;
@@ -138,7 +137,7 @@ void GrainContacts::evaluate_pairs(const Law& law, std::span<const GrainFrame> f
     });
     // A pair that lets go of springs is looked at once more, so that both buffers are empty when
     // it falls asleep.
-    wake_[p] = old_springs.empty() ? wake : awake;
+    wake_[p] = old_springs.empty() ? wake : wake_always;
     mine.counters.touching_nodes += forces_[p].touching;
     if (forces_[p].touching > 0) ++mine.counters.touching_pairs;
   });
@@ -163,7 +162,7 @@ void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_ste
 }
 
 void GrainContacts::forget_near_lists() {
-  std::fill(wake_.begin(), wake_.end(), awake);
+  std::fill(wake_.begin(), wake_.end(), wake_always);
   for (NearPair& pair : near_) pair = {};
 }
 
@@ -210,7 +209,7 @@ void GrainContacts::restore(std::span<const PairSprings> springs) {
       arena.insert(arena.end(), pair.springs.begin(), pair.springs.end());
     }));
   }
-  wake_.assign(pairs_.size(), awake);
+  wake_.assign(pairs_.size(), wake_always);
   near_.clear();
   near_.resize(pairs_.size());
   store_.commit();

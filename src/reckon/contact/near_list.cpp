@@ -5,37 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "reckon/contact/clearance.hpp"
 #include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/near_skin.hpp"
 
 namespace reckon {
 namespace {
-
-constexpr double always = -std::numeric_limits<double>::infinity();
-constexpr double never = std::numeric_limits<double>::infinity();
 
 /// Taken off every clearance: far more than the rounding of positions in the slave's frame, of phi
 /// and of the Lipschitz constant, and than that of sums with the odometer.
 double rounding_margin(const ShapeView& master, const ShapeView& slave, double odometer) {
   return 1e-12 * (master.bounding_radius + slave.bounding_radius) +
          8 * std::numeric_limits<double>::epsilon() * odometer;
-}
-
-/// A list is made anew once this share of its allowance is used up.
-constexpr double used_up = 0.75;
-
-/// Nodes are listed when nearer than this share of their mean spacing.
-constexpr double skin_in_spacings = 0.25;
-
-double node_spacing(const ShapeView& shape) {
-  const auto count = static_cast<double>(std::max<std::size_t>(shape.node_x.size(), 1));
-  return shape.bounding_radius * std::sqrt(4 * std::numbers::pi / count);
-}
-
-Vec3 node_of(const ShapeView& shape, std::size_t n) {
-  return {shape.node_x[n], shape.node_y[n], shape.node_z[n]};
 }
 
 }  // namespace
@@ -93,8 +75,8 @@ double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave,
       earliest = std::min(earliest, wake_[n]);
       continue;
     }
-    wake_[n] = always;
-    earliest = always;
+    wake_[n] = wake_always;
+    earliest = wake_always;
     const Vec3 gradient_body = node.cell.gradient(where.x, where.y, where.z) / grid.spacing;
     touches.push_back({node.node, phi, slave.rotation * gradient_body,
                        master.rotation * node.place_body, node.area});
@@ -107,7 +89,7 @@ bool NearList::still_complete(const Placement& at, double master_radius, double 
   if (rest_ < 0) return false;
   const double moved =
       norm(at.shift - shift_when_made_) + master_radius * turn_distance(turn_when_made_, at.turn);
-  if (!(moved < used_up * rest_)) return false;
+  if (!(moved < list_lifetime * rest_)) return false;
   complete_until_ = odometer + (rest_ - moved) - margin;
   return true;
 }
@@ -115,12 +97,12 @@ bool NearList::still_complete(const Placement& at, double master_radius, double 
 void NearList::make(const ShapeView& master, const ShapeView& slave, const Placement& at,
                     double odometer, ContactCounters& counters) {
   const double margin = rounding_margin(master, slave, odometer);
-  const double skin = skin_in_spacings * node_spacing(master);
+  const double skin = list_skin(master);
   const Clearance clearance{slave};
   ++counters.lists_made;
   wake_.clear();
   nodes_.clear();
-  rest_ = never;
+  rest_ = wake_never;
 
   // A cluster's bound: no node of it has less clearance. Opened clusters leave the contest.
   thread_local std::vector<double> bounds;
@@ -128,7 +110,7 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Place
   const auto open = [&](const NodeCluster& cluster) {
     for (std::uint32_t n = cluster.first; n < cluster.first + cluster.count; ++n) {
       ++counters.searched_nodes;
-      const Vec3 place_body = node_of(master, n);
+      const Vec3 place_body = master.node(n);
       const Vec3 point = at.turn * place_body + at.shift;
       double bound = clearance.of_sphere(point) - margin;
       if (bound <= skin) bound = std::max(bound, clearance.of_grid(point) - margin);
@@ -146,7 +128,7 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Place
     if (bound <= skin) bound = std::max(bound, clearance.of_grid(center) - cluster.radius - margin);
     if (bound <= skin) {
       open(cluster);
-      bound = never;
+      bound = wake_never;
     }
     bounds.push_back(bound);
   }
@@ -154,7 +136,7 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Place
   while (nodes_.empty()) {
     const auto nearest = std::min_element(bounds.begin(), bounds.end());
     if (nearest == bounds.end() || *nearest >= rest_) break;
-    *nearest = never;
+    *nearest = wake_never;
     open(master.clusters[static_cast<std::size_t>(nearest - bounds.begin())]);
   }
   for (const double bound : bounds) rest_ = std::min(rest_, bound);

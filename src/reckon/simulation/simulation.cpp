@@ -17,7 +17,7 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state)
     : setup_{std::move(setup)},
       shapes_{setup_.shapes->begin(), setup_.shapes->end()},
       grain_contacts_{setup_.contact, setup_.engine},
-      wall_contacts_{setup_.walls},
+      wall_contacts_{setup_.walls, setup_.engine},
       step_{state.step} {
   for (const GrainState& grain : state.grains) grains_.push_back(grain);
   grain_contacts_.restore(state.pair_springs);
