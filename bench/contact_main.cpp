@@ -84,12 +84,13 @@ struct Options {
   std::uint64_t near_steps{0};
   std::uint64_t plain_steps{0};
   int threads{1};
+  std::string packing_file;
 };
 
 void run(const WorkloadKind& kind, const Options& options) {
   Stopwatch watch;
   const std::uint32_t grains = options.grains > 0 ? options.grains : kind.grains;
-  Workload work = kind.make(grains);
+  Workload work = kind.make(grains, options.packing_file);
   fmt::print("{}: {}; {} grains, made in {:.1f} s\n", kind.name, kind.meaning, grains, watch.lap());
   if (work.inertial_number > 0) {
     fmt::print("inertial number {:.1e}, solid fraction {:.3f}\n", work.inertial_number,
@@ -138,6 +139,7 @@ int main(int argc, char** argv) {
   app.add_option("--grains", options.grains, "Number of grains (0: the workload's own)");
   app.add_option("--near-steps", options.near_steps, "Steps to measure with the near engine");
   app.add_option("--plain-steps", options.plain_steps, "Steps to measure with the plain engine");
+  app.add_option("--packing", options.packing_file, "Keep the packing in this file");
   app.add_option("--threads", options.threads, "Threads");
   CLI11_PARSE(app, argc, argv);
   set_thread_count(options.threads);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numeric>
 
 #include "reckon/avatar/generator.hpp"
@@ -154,19 +155,58 @@ double wall_pressure(const Measurement& now, const Vec3& size) {
   return sum / 6;
 }
 
+namespace {
+
+/// A packing without its contacts, in the machine's own byte order.
+struct PackingFile {
+  Vec3 low;
+  Vec3 high;
+  double pressure;
+};
+
+bool read_packing(const std::string& path, std::size_t grains, Packing& packing) {
+  std::ifstream file{path, std::ios::binary};
+  PackingFile head{};
+  packing.state.grains.resize(grains);
+  file.read(reinterpret_cast<char*>(&head), sizeof head);
+  file.read(reinterpret_cast<char*>(packing.state.grains.data()),
+            static_cast<std::streamsize>(grains * sizeof(GrainState)));
+  packing.low = head.low;
+  packing.high = head.high;
+  packing.pressure = head.pressure;
+  return static_cast<bool>(file);
+}
+
+void write_packing(const std::string& path, const Packing& packing) {
+  const PackingFile head{packing.low, packing.high, packing.pressure};
+  std::ofstream file{path, std::ios::binary};
+  file.write(reinterpret_cast<const char*>(&head), sizeof head);
+  file.write(reinterpret_cast<const char*>(packing.state.grains.data()),
+             static_cast<std::streamsize>(packing.state.grains.size() * sizeof(GrainState)));
+}
+
+}  // namespace
+
 Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& material,
-                double pressure, double time_step, double skin) {
+                double pressure, double time_step, double skin, const std::string& file) {
   Packing packing;
-  const double edge = place_apart(*shapes, packing.state.grains);
-  double smallest = edge;
-  for (const Shape& shape : *shapes) smallest = std::min(smallest, shape.bounding_radius);
-  number_by_place(packing.state.grains, 2 * smallest);
-  packing.high = {edge, edge, edge};
   packing.setup.shapes = std::move(shapes);
   packing.setup.density = material.density;
-  packing.setup.contact = {material.law, 0.0, material.master};
+  packing.setup.contact = {material.law, material.friction, material.master};
   packing.setup.time_step = time_step;
   packing.setup.skin = skin;
+  if (!file.empty() && read_packing(file, packing.setup.shapes->size(), packing)) {
+    packing.setup.walls = closed_box(packing.low, packing.high, material);
+    return packing;
+  }
+  const double edge = place_apart(*packing.setup.shapes, packing.state.grains);
+  double smallest = edge;
+  for (const Shape& shape : *packing.setup.shapes) {
+    smallest = std::min(smallest, shape.bounding_radius);
+  }
+  number_by_place(packing.state.grains, 2 * smallest);
+  packing.high = {edge, edge, edge};
+  packing.setup.contact.friction = 0;
   packing.setup.damping = 0.03 / time_step;
   // Space itself shrinks, by less once the walls are felt, and the grains make room in between.
   for (double factor = 0.993; packing.pressure < pressure;) {
@@ -191,6 +231,7 @@ Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& mate
   for (int n = 0; n < 600; ++n) rest.step();
   packing.state = rest.state();
   packing.pressure = wall_pressure(rest.measure(), packing.high - packing.low);
+  if (!file.empty()) write_packing(file, packing);
   return packing;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "reckon/avatar/shape_builder.hpp"
@@ -40,9 +41,11 @@ struct Packing {
 };
 
 /// Packs one grain per shape: placed apart, larger ones first, in a loose cube, which then shrinks,
-/// without friction and with much damping, until the walls bear `pressure`.
+/// without friction and with much damping, until the walls bear `pressure`. When
+/// `file` is given, the result is kept there and read from there the next time.
 [[nodiscard]] Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& material,
-                              double pressure, double time_step, double skin);
+                              double pressure, double time_step, double skin,
+                              const std::string& file);
 
 /// Mean normal stress on the six walls of a box [Pa].
 [[nodiscard]] double wall_pressure(const Measurement& now, const Vec3& size);

@@ -40,19 +40,19 @@ std::shared_ptr<const ShapeLibrary> library(const std::vector<GrainKind>& kinds,
   return std::make_shared<const ShapeLibrary>(make_shapes(kinds, distinct));
 }
 
-Workload dense(std::uint32_t grains) {
+Workload dense(std::uint32_t grains, const std::string& packing_file) {
   return sheared(squeeze(library({{diameter, grains, 279, 18}}, 12), stiff_sand, stiff_pressure,
-                         stiff_time_step, skin),
+                         stiff_time_step, skin, packing_file),
                  1e-3);
 }
 
-Workload dense_fine(std::uint32_t grains) {
+Workload dense_fine(std::uint32_t grains, const std::string& packing_file) {
   return sheared(squeeze(library({{diameter, grains, 5000, 50}}, 8), stiff_sand, stiff_pressure,
-                         stiff_time_step, skin),
+                         stiff_time_step, skin, packing_file),
                  1e-3);
 }
 
-Workload graded(std::uint32_t grains) {
+Workload graded(std::uint32_t grains, const std::string& packing_file) {
   Material material = stiff_sand;
   material.master = MasterRule::smaller;
   const std::uint32_t large = std::max(grains / 1000, 2U);
@@ -61,11 +61,11 @@ Workload graded(std::uint32_t grains) {
                                   {4 * diameter, middle, 600, 30},
                                   {diameter, grains - large - middle, 279, 18}},
                                  8),
-                         material, stiff_pressure, stiff_time_step, skin),
+                         material, stiff_pressure, stiff_time_step, skin, packing_file),
                  1e-3);
 }
 
-Workload settle(std::uint32_t grains) {
+Workload settle(std::uint32_t grains, const std::string& /*packing_file*/) {
   Workload work;
   const AreaLaw law{2e7, 1.8e7, area_dashpot_factor(0.5)};
   work.setup.shapes = library({{diameter, grains, 279, 18}}, 12);

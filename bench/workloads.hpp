@@ -23,7 +23,7 @@ struct WorkloadKind {
   std::string name;
   std::string meaning;
   std::uint32_t grains;  ///< by default
-  Workload (*make)(std::uint32_t grains);
+  Workload (*make)(std::uint32_t grains, const std::string& packing_file);
 };
 
 [[nodiscard]] const std::vector<WorkloadKind>& workload_kinds();
