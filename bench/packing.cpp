@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numeric>
 
 #include "reckon/avatar/generator.hpp"
@@ -34,42 +35,37 @@ std::vector<Wall> closed_box(const Vec3& low, const Vec3& high, const Material& 
   return walls;
 }
 
-/// Centres on a cubic lattice whose cells hold the largest grain, or, for smaller grains, several
-/// of them; bounding spheres apart.
-double place_apart(const ShapeLibrary& shapes, std::vector<GrainState>& grains) {
-  std::vector<std::uint32_t> by_size(shapes.size());
-  std::iota(by_size.begin(), by_size.end(), 0U);
-  std::stable_sort(by_size.begin(), by_size.end(), [&](std::uint32_t s, std::uint32_t t) {
-    return shapes[s].bounding_radius > shapes[t].bounding_radius;
-  });
-  double volume = 0;
-  for (const Shape& shape : shapes) volume += std::pow(2.1 * shape.bounding_radius, 3);
-  // A cell of side a is cut into eight when the next grain fits into half of it.
-  const double side = 2.1 * shapes[by_size[0]].bounding_radius;
-  const auto cells_per_edge =
-      static_cast<int>(std::ceil(std::cbrt(volume / (side * side * side)) * 1.02));
-  struct Cell {
-    Vec3 low;
-    double side;
-  };
+struct Cell {
+  Vec3 low;
+  double side;
+};
+
+/// A cubic lattice in scattered order, so that sizes mix.
+std::vector<Cell> scattered_lattice(int cells_per_edge, double side) {
   std::vector<Cell> cells;
-  for (int n = cells_per_edge * cells_per_edge * cells_per_edge; n-- > 0;) {
-    const int i = n % cells_per_edge;
-    const int j = n / cells_per_edge % cells_per_edge;
-    const int k = n / cells_per_edge / cells_per_edge;
-    cells.push_back({side * Vec3{double(i), double(j), double(k)}, side});
+  for (int k = 0; k < cells_per_edge; ++k) {
+    for (int j = 0; j < cells_per_edge; ++j) {
+      for (int i = 0; i < cells_per_edge; ++i) {
+        cells.push_back({side * Vec3{double(i), double(j), double(k)}, side});
+      }
+    }
   }
-  // Scattered, so that sizes mix.
   RandomStream random{seed, RandomPurpose::placement, 0};
   for (std::size_t n = cells.size(); n > 1; --n) {
     std::swap(cells[n - 1], cells[static_cast<std::size_t>(random.uniform() * double(n))]);
   }
-  grains.resize(shapes.size());
+  return cells;
+}
+
+/// Puts each grain in a cell that holds its bounding sphere, largest first; a cell is cut into
+/// eight as long as the grain fits into one of them. False when cells run out.
+bool fill_cells(std::vector<Cell> cells, const std::vector<std::uint32_t>& by_size,
+                const ShapeLibrary& shapes, std::vector<GrainState>& grains) {
   for (const std::uint32_t s : by_size) {
-    const double need = 2.05 * shapes[s].bounding_radius;
+    if (cells.empty()) return false;
     Cell cell = cells.back();
     cells.pop_back();
-    while (cell.side / 2 > need) {
+    while (cell.side / 2 > 2.05 * shapes[s].bounding_radius) {
       const double half = cell.side / 2;
       for (int c = 1; c < 8; ++c) {
         cells.push_back(
@@ -77,11 +73,28 @@ double place_apart(const ShapeLibrary& shapes, std::vector<GrainState>& grains) 
       }
       cell.side = half;
     }
-    GrainState& grain = grains[s];
-    grain.id = GrainId{s};
-    grain.shape = ShapeId{s};
-    grain.position = cell.low + 0.5 * cell.side * Vec3{1, 1, 1};
-    grain.orientation = random_orientation(seed, grain.id);
+    grains[s].position = cell.low + 0.5 * cell.side * Vec3{1, 1, 1};
+  }
+  return true;
+}
+
+/// One grain per shape, bounding spheres apart, in a cube from the origin; returns its edge.
+double place_apart(const ShapeLibrary& shapes, std::vector<GrainState>& grains) {
+  std::vector<std::uint32_t> by_size(shapes.size());
+  std::iota(by_size.begin(), by_size.end(), 0U);
+  std::stable_sort(by_size.begin(), by_size.end(), [&](std::uint32_t s, std::uint32_t t) {
+    return shapes[s].bounding_radius > shapes[t].bounding_radius;
+  });
+  grains.resize(shapes.size());
+  for (const std::uint32_t s : by_size) {
+    grains[s].id = GrainId{s};
+    grains[s].shape = ShapeId{s};
+    grains[s].orientation = random_orientation(seed, grains[s].id);
+  }
+  const double side = 2.1 * shapes[by_size[0]].bounding_radius;
+  int cells_per_edge = 1;
+  while (!fill_cells(scattered_lattice(cells_per_edge, side), by_size, shapes, grains)) {
+    ++cells_per_edge;
   }
   return side * cells_per_edge;
 }
@@ -142,36 +155,74 @@ double wall_pressure(const Measurement& now, const Vec3& size) {
   return sum / 6;
 }
 
+namespace {
+
+/// A packing without its contacts, in the machine's own byte order.
+struct PackingFile {
+  Vec3 low;
+  Vec3 high;
+  double pressure;
+};
+
+bool read_packing(const std::string& path, std::size_t grains, Packing& packing) {
+  std::ifstream file{path, std::ios::binary};
+  PackingFile head{};
+  packing.state.grains.resize(grains);
+  file.read(reinterpret_cast<char*>(&head), sizeof head);
+  file.read(reinterpret_cast<char*>(packing.state.grains.data()),
+            static_cast<std::streamsize>(grains * sizeof(GrainState)));
+  packing.low = head.low;
+  packing.high = head.high;
+  packing.pressure = head.pressure;
+  return static_cast<bool>(file);
+}
+
+void write_packing(const std::string& path, const Packing& packing) {
+  const PackingFile head{packing.low, packing.high, packing.pressure};
+  std::ofstream file{path, std::ios::binary};
+  file.write(reinterpret_cast<const char*>(&head), sizeof head);
+  file.write(reinterpret_cast<const char*>(packing.state.grains.data()),
+             static_cast<std::streamsize>(packing.state.grains.size() * sizeof(GrainState)));
+}
+
+}  // namespace
+
 Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& material,
-                double pressure, double time_step, double skin) {
+                double pressure, double time_step, double skin, const std::string& file) {
   Packing packing;
-  const double edge = place_apart(*shapes, packing.state.grains);
-  double smallest = edge;
-  for (const Shape& shape : *shapes) smallest = std::min(smallest, shape.bounding_radius);
-  number_by_place(packing.state.grains, 2 * smallest);
-  packing.high = {edge, edge, edge};
   packing.setup.shapes = std::move(shapes);
   packing.setup.density = material.density;
-  packing.setup.contact = {material.law, 0.1, material.master};
+  packing.setup.contact = {material.law, material.friction, material.master};
   packing.setup.time_step = time_step;
   packing.setup.skin = skin;
-  const double step_share = 0.0015 * smallest;  // walls move so far in a step
-  packing.setup.damping = 0.01 / time_step;
-  for (;;) {
+  if (!file.empty() && read_packing(file, packing.setup.shapes->size(), packing)) {
     packing.setup.walls = closed_box(packing.low, packing.high, material);
-    SimulationSetup moving = packing.setup;
-    constexpr int steps = 100;
-    for (std::size_t w = 0; w < 6; ++w) {
-      const Vec3 inward = std::get<PlaneSurface>(moving.walls[w].surface).normal_unit;
-      moving.walls[w].motion = WallMotion{.velocity = (step_share / time_step) * inward};
-    }
+    return packing;
+  }
+  const double edge = place_apart(*packing.setup.shapes, packing.state.grains);
+  double smallest = edge;
+  for (const Shape& shape : *packing.setup.shapes) {
+    smallest = std::min(smallest, shape.bounding_radius);
+  }
+  number_by_place(packing.state.grains, 2 * smallest);
+  packing.high = {edge, edge, edge};
+  packing.setup.contact.friction = 0;
+  packing.setup.damping = 0.03 / time_step;
+  // Space itself shrinks, by less once the walls are felt, and the grains make room in between.
+  for (double factor = 0.993; packing.pressure < pressure;) {
+    const Vec3 middle = 0.5 * (packing.low + packing.high);
+    const auto shrink = [&](Vec3& p) { p = middle + factor * (p - middle); };
+    shrink(packing.low);
+    shrink(packing.high);
+    for (GrainState& grain : packing.state.grains) shrink(grain.position);
+    packing.setup.walls = closed_box(packing.low, packing.high, material);
     packing.state.step = 0;
-    Simulation simulation{moving, packing.state};
-    for (int n = 0; n < steps; ++n) simulation.step();
+    Simulation simulation{packing.setup, packing.state};
+    for (int n = 0; n < 60; ++n) simulation.step();
     packing.state = simulation.state();
-    packing.low += steps * step_share * Vec3{1, 1, 1};
-    packing.high -= steps * step_share * Vec3{1, 1, 1};
-    if (wall_pressure(simulation.measure(), packing.high - packing.low) > pressure) break;
+    packing.pressure = wall_pressure(simulation.measure(), packing.high - packing.low);
+    const double share = packing.pressure / pressure;
+    factor = share < 0.005 ? 0.993 : share < 0.3 ? 0.998 : 0.9995;
   }
   packing.setup.walls = closed_box(packing.low, packing.high, material);
   packing.setup.contact.friction = material.friction;
@@ -180,6 +231,7 @@ Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& mate
   for (int n = 0; n < 600; ++n) rest.step();
   packing.state = rest.state();
   packing.pressure = wall_pressure(rest.measure(), packing.high - packing.low);
+  if (!file.empty()) write_packing(file, packing);
   return packing;
 }
 

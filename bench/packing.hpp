@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "reckon/avatar/shape_builder.hpp"
@@ -39,10 +40,12 @@ struct Packing {
   double pressure{0};  ///< mean normal stress on the walls [Pa]
 };
 
-/// Packs one grain per shape: placed apart, larger ones first, in a loose cube, which is then
-/// squeezed from all sides, with little friction and much damping, until the walls bear `pressure`.
+/// Packs one grain per shape: placed apart, larger ones first, in a loose cube, which then shrinks,
+/// without friction and with much damping, until the walls bear `pressure`. When
+/// `file` is given, the result is kept there and read from there the next time.
 [[nodiscard]] Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& material,
-                              double pressure, double time_step, double skin);
+                              double pressure, double time_step, double skin,
+                              const std::string& file);
 
 /// Mean normal stress on the six walls of a box [Pa].
 [[nodiscard]] double wall_pressure(const Measurement& now, const Vec3& size);

@@ -25,7 +25,10 @@ Workload sheared(Packing packing, double inertial_number) {
   walls[4].motion = WallMotion{.velocity = {0, 0, -0.5 * rate * size.z}};
   walls[5].motion = WallMotion{.velocity = {0, 0, 0.5 * rate * size.z}};
   packing.setup.damping = 1;
-  return {std::move(packing.setup), std::move(packing.state), inertial_number, 0};
+  double volume = 0;
+  for (const Shape& shape : *packing.setup.shapes) volume += shape.mass.volume;
+  return {std::move(packing.setup), std::move(packing.state), inertial_number,
+          volume / (size.x * size.y * size.z)};
 }
 
 const Material stiff_sand{.law = LinearLaw{1e8, 0.9e8, 0, 0}};
@@ -37,19 +40,19 @@ std::shared_ptr<const ShapeLibrary> library(const std::vector<GrainKind>& kinds,
   return std::make_shared<const ShapeLibrary>(make_shapes(kinds, distinct));
 }
 
-Workload dense(std::uint32_t grains) {
-  return sheared(squeeze(library({{diameter, grains, 279, 18}}, 32), stiff_sand, stiff_pressure,
-                         stiff_time_step, skin),
+Workload dense(std::uint32_t grains, const std::string& packing_file) {
+  return sheared(squeeze(library({{diameter, grains, 279, 18}}, 12), stiff_sand, stiff_pressure,
+                         stiff_time_step, skin, packing_file),
                  1e-3);
 }
 
-Workload dense_fine(std::uint32_t grains) {
+Workload dense_fine(std::uint32_t grains, const std::string& packing_file) {
   return sheared(squeeze(library({{diameter, grains, 5000, 50}}, 8), stiff_sand, stiff_pressure,
-                         stiff_time_step, skin),
+                         stiff_time_step, skin, packing_file),
                  1e-3);
 }
 
-Workload graded(std::uint32_t grains) {
+Workload graded(std::uint32_t grains, const std::string& packing_file) {
   Material material = stiff_sand;
   material.master = MasterRule::smaller;
   const std::uint32_t large = std::max(grains / 1000, 2U);
@@ -58,14 +61,14 @@ Workload graded(std::uint32_t grains) {
                                   {4 * diameter, middle, 600, 30},
                                   {diameter, grains - large - middle, 279, 18}},
                                  8),
-                         material, stiff_pressure, stiff_time_step, skin),
+                         material, stiff_pressure, stiff_time_step, skin, packing_file),
                  1e-3);
 }
 
-Workload settle(std::uint32_t grains) {
+Workload settle(std::uint32_t grains, const std::string& /*packing_file*/) {
   Workload work;
   const AreaLaw law{2e7, 1.8e7, area_dashpot_factor(0.5)};
-  work.setup.shapes = library({{diameter, grains, 279, 18}}, 32);
+  work.setup.shapes = library({{diameter, grains, 279, 18}}, 12);
   work.setup.density = 1000;
   work.setup.contact = {law, 0.5, MasterRule::lower_id};
   const double edge = 0.8 * diameter * std::cbrt(static_cast<double>(grains)) * 1.2;

@@ -14,7 +14,8 @@ namespace reckon::bench {
 struct Workload {
   SimulationSetup setup;
   SimulationState state;
-  double inertial_number{0};   ///< 0: not in steady shear
+  double inertial_number{0};  ///< 0: not in steady shear
+  double solid_fraction{0};
   std::uint64_t whole_run{0};  ///< steps from start to end; 0: measure a steady state
 };
 
@@ -22,7 +23,7 @@ struct WorkloadKind {
   std::string name;
   std::string meaning;
   std::uint32_t grains;  ///< by default
-  Workload (*make)(std::uint32_t grains);
+  Workload (*make)(std::uint32_t grains, const std::string& packing_file);
 };
 
 [[nodiscard]] const std::vector<WorkloadKind>& workload_kinds();

@@ -3,40 +3,16 @@
 #include "reckon/boundary/wall_contacts.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <utility>
 
+#include "reckon/contact/near_skin.hpp"
 #include "reckon/contact/pair_kernel.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
 namespace {
-
-double distance(const Wall& wall, const WallPose& pose, const Vec3& point) {
-  return std::visit([&](const auto& s) { return s.distance(point - pose.displacement); },
-                    wall.surface);
-}
-
-/// Every node of the grain, in order, against the wall. A wall's distance has slope one, so a
-/// grain whose centre is farther than its bounding radius cannot touch.
-void find_touches(const GrainFrame& grain, const Wall& wall, const WallPose& pose,
-                  std::vector<Touch>& touches) {
-  const ShapeView& shape = *grain.shape;
-  if (!(distance(wall, pose, grain.position) < shape.bounding_radius)) return;
-  std::visit(
-      [&](const auto& surface) {
-        const Vec3 center = grain.position - pose.displacement;
-        for (std::size_t n = 0; n < shape.node_x.size(); ++n) {
-          Vec3 lever = grain.rotation * Vec3{shape.node_x[n], shape.node_y[n], shape.node_z[n]};
-          const Vec3 point = center + lever;
-          const double phi = surface.distance(point);
-          if (!(phi < 0)) continue;
-          if (wall.shortened_lever) lever *= 1 + phi / norm(lever);
-          touches.push_back(
-              {static_cast<NodeIndex>(n), phi, surface.gradient(point), lever, shape.node_area[n]});
-        }
-      },
-      wall.surface);
-}
 
 WallForce force_of(const DirectedForce& directed, const Vec3& wall_velocity, double time_step) {
   return {directed.force,
@@ -57,56 +33,102 @@ void WallContacts::move_walls(std::uint64_t step, double time_step) {
 }
 
 void WallContacts::rebuild(std::span<const GrainFrame> frames, double skin) {
-  std::map<std::pair<GrainId, WallId>, SpringRange> kept;
+  std::map<std::pair<GrainId, WallId>, std::size_t> old_place;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    if (springs_of_candidate_[c].count > 0) {
-      kept[{candidates_[c].grain, candidates_[c].wall}] = springs_of_candidate_[c];
-    }
+    old_place[{candidates_[c].grain, candidates_[c].wall}] = c;
   }
+  const auto old_springs = std::exchange(springs_of_candidate_, {});
+  const auto old_wake = std::exchange(wake_, {});
+  auto old_near = std::exchange(near_, {});
   candidates_.clear();
-  springs_of_candidate_.clear();
   first_of_slot_.assign(1, 0);
   for (std::uint32_t slot = 0; slot < frames.size(); ++slot) {
     for (std::uint32_t w = 0; w < walls_.size(); ++w) {
       const double reach = frames[slot].shape->bounding_radius + skin;
       if (!(distance(walls_[w], poses_[w], frames[slot].position) < reach)) continue;
       candidates_.push_back({slot, WallId{w}, frames[slot].id});
-      const auto found = kept.find({frames[slot].id, WallId{w}});
-      springs_of_candidate_.push_back(found != kept.end() ? found->second : SpringRange{});
+      const auto found = old_place.find({frames[slot].id, WallId{w}});
+      const bool known = found != old_place.end();
+      springs_of_candidate_.push_back(known ? old_springs[found->second] : SpringRange{});
+      wake_.push_back(known ? old_wake[found->second] : wake_always);
+      near_.push_back(known ? std::move(old_near[found->second]) : NearWall{});
     }
     first_of_slot_.push_back(static_cast<std::uint32_t>(candidates_.size()));
   }
+  // A sleeping candidate writes neither.
+  new_springs_of_candidate_.assign(candidates_.size(), {});
+  forces_.assign(candidates_.size(), {});
+}
+
+bool WallContacts::follow(std::span<const GrainFrame> frames) {
+  seen_displacement_.resize(walls_.size());
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    travelled_[w] += norm(poses_[w].displacement - seen_displacement_[w]);
+    travelled_[w] *= 1 + 4 * std::numeric_limits<double>::epsilon();
+    seen_displacement_[w] = poses_[w].displacement;
+  }
+  return meter_.follow(frames);
+}
+
+double WallContacts::evaluate_candidate(std::size_t c, const GrainFrame& grain, double time_step,
+                                        bool use_near_lists, double odometer, Scratch& scratch) {
+  const std::uint32_t w = candidates_[c].wall.get();
+  const auto old_springs = store_.read(springs_of_candidate_[c]);
+  auto& touches = scratch.touches;
+  touches.clear();
+  double wake = wake_always;
+  if (use_near_lists) {
+    wake = near_[c].find_touches(grain, walls_[w], poses_[w], odometer, touches, scratch.counters);
+  } else {
+    find_wall_touches(grain, walls_[w], poses_[w], touches);
+  }
+  new_springs_of_candidate_[c] = store_.append([&](std::vector<NodeSpring>& arena) {
+    forces_[c] = {};
+    if (touches.empty() && old_springs.empty()) return;
+    const PairContext context{
+        .effective_mass = grain.mass, .friction = walls_[w].friction, .time_step = time_step};
+    const RigidMotion grain_motion{grain.position, grain.velocity, grain.angular_velocity_world};
+    const RigidMotion wall_motion{grain.position, poses_[w].velocity, {}};
+    std::visit(
+        [&](const auto& law) {
+          forces_[c] =
+              force_of(respond(law, context, grain.position, grain_motion, wall_motion, touches,
+                               old_springs, grain.shape->node_area, false, 1, arena),
+                       poses_[w].velocity, time_step);
+        },
+        walls_[w].law);
+  });
+  // As in GrainContacts: both spring buffers must be empty before a candidate may sleep.
+  return old_springs.empty() ? wake : wake_always;
 }
 
 void WallContacts::evaluate(std::span<const GrainFrame> frames, double time_step) {
-  forces_.resize(candidates_.size());
-  new_springs_of_candidate_.resize(candidates_.size());
+  bool use_near_lists = false;
+  if (engine_ == ContactEngine::near) {
+    use_near_lists = follow(frames);
+    if (!use_near_lists) {
+      std::fill(wake_.begin(), wake_.end(), wake_always);
+      std::fill(near_.begin(), near_.end(), NearWall{});
+    }
+  }
   store_.begin_writing(thread_count());
-  std::vector<std::vector<Touch>> scratch(static_cast<std::size_t>(thread_count()));
+  scratch_.resize(static_cast<std::size_t>(thread_count()));
+  const std::span<const double> travelled = meter_.travelled();
   parallel_for(candidates_.size(), 32, [&](std::size_t c) {
-    const GrainFrame& grain = frames[candidates_[c].slot];
-    const std::uint32_t w = candidates_[c].wall.get();
-    const auto old_springs = store_.read(springs_of_candidate_[c]);
-    auto& touches = scratch[static_cast<std::size_t>(thread_index())];
-    touches.clear();
-    find_touches(grain, walls_[w], poses_[w], touches);
-    new_springs_of_candidate_[c] = store_.append([&](std::vector<NodeSpring>& arena) {
-      forces_[c] = {};
-      if (touches.empty() && old_springs.empty()) return;
-      const PairContext context{
-          .effective_mass = grain.mass, .friction = walls_[w].friction, .time_step = time_step};
-      const RigidMotion grain_motion{grain.position, grain.velocity, grain.angular_velocity_world};
-      const RigidMotion wall_motion{grain.position, poses_[w].velocity, {}};
-      std::visit(
-          [&](const auto& law) {
-            forces_[c] =
-                force_of(respond(law, context, grain.position, grain_motion, wall_motion, touches,
-                                 old_springs, grain.shape->node_area, false, 1, arena),
-                         poses_[w].velocity, time_step);
-          },
-          walls_[w].law);
-    });
+    const Candidate& candidate = candidates_[c];
+    const double odometer =
+        use_near_lists ? travelled[candidate.slot] + travelled_[candidate.wall.get()] : 0;
+    if (odometer < wake_[c]) return;
+    Scratch& mine = scratch_[static_cast<std::size_t>(thread_index())];
+    wake_[c] =
+        evaluate_candidate(c, frames[candidate.slot], time_step, use_near_lists, odometer, mine);
+    ++mine.counters.awake;
+    mine.counters.touching_nodes += forces_[c].touching;
+    if (forces_[c].touching > 0) ++mine.counters.touching_pairs;
   });
+  ++counters_.evaluations;
+  counters_.pairs += candidates_.size();
+  for (Scratch& scratch : scratch_) counters_ += std::exchange(scratch.counters, {});
 }
 
 void WallContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const {
@@ -144,6 +166,8 @@ void WallContacts::adopt(std::span<const WallSprings> springs) {
     candidates_.push_back({0, entry.wall, entry.grain});
     springs_of_candidate_.push_back(store_.adopt(entry.springs));
   }
+  wake_.resize(candidates_.size(), wake_always);
+  near_.resize(candidates_.size());
 }
 
 }  // namespace reckon

@@ -5,8 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "reckon/boundary/near_wall.hpp"
 #include "reckon/boundary/wall.hpp"
+#include "reckon/contact/contact_counters.hpp"
 #include "reckon/contact/history.hpp"
+#include "reckon/contact/motion_meter.hpp"
 #include "reckon/contact/touch.hpp"
 #include "reckon/grains/grain_frame.hpp"
 
@@ -32,10 +35,11 @@ struct WallSprings {
 };
 
 /// Contacts between grains and walls. Used like GrainContacts; loads are to be added after those of
-/// the grains, a grain's walls in the order of the scene.
+/// the grains, a grain's walls in the order of the scene. Candidates sleep as pairs of grains do.
 class WallContacts {
  public:
-  explicit WallContacts(std::vector<Wall> walls) : walls_{std::move(walls)} {}
+  explicit WallContacts(std::vector<Wall> walls, ContactEngine engine = ContactEngine::near)
+      : walls_{std::move(walls)}, engine_{engine}, travelled_(walls_.size(), 0.0) {}
 
   /// Places the walls for one step. To be called before rebuild and evaluate.
   void move_walls(std::uint64_t step, double time_step);
@@ -55,6 +59,8 @@ class WallContacts {
   };
   [[nodiscard]] std::span<const Candidate> candidates() const { return candidates_; }
   [[nodiscard]] std::span<const WallForce> forces() const { return forces_; }
+  /// Of candidates instead of pairs.
+  [[nodiscard]] const ContactCounters& counters() const { return counters_; }
 
   /// Springs of all touching candidates, sorted by (grain, wall).
   [[nodiscard]] std::vector<WallSprings> springs() const;
@@ -62,7 +68,16 @@ class WallContacts {
   void adopt(std::span<const WallSprings> springs);
 
  private:
+  struct alignas(64) Scratch {
+    std::vector<Touch> touches;
+    ContactCounters counters;
+  };
+  [[nodiscard]] bool follow(std::span<const GrainFrame> frames);
+  double evaluate_candidate(std::size_t c, const GrainFrame& grain, double time_step,
+                            bool use_near_lists, double odometer, Scratch& scratch);
+
   std::vector<Wall> walls_;
+  ContactEngine engine_;
   std::vector<WallPose> poses_;
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> first_of_slot_;
@@ -70,6 +85,14 @@ class WallContacts {
   std::vector<SpringRange> new_springs_of_candidate_;
   std::vector<WallForce> forces_;
   SpringStore store_;
+
+  MotionMeter meter_;
+  std::vector<Vec3> seen_displacement_;  // per wall, at the last follow()
+  std::vector<double> travelled_;        // per wall [m]
+  std::vector<double> wake_;             // per candidate
+  std::vector<NearWall> near_;           // per candidate
+  std::vector<Scratch> scratch_;
+  ContactCounters counters_;
 };
 
 }  // namespace reckon

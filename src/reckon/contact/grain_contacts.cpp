@@ -3,19 +3,21 @@
 #include "reckon/contact/grain_contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <type_traits>
 #include <utility>
 
+#include "reckon/contact/near_skin.hpp"
 #include "reckon/contact/pair_kernel.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
 namespace {
 
-constexpr std::size_t pairs_per_task = 64;
-constexpr double awake = -std::numeric_limits<double>::infinity();
+constexpr std::size_t pairs_per_task = 128;
+constexpr std::size_t prefetch_distance = 3;
 
 RigidMotion motion_of(const GrainFrame& grain) {
   return {grain.position, grain.velocity, grain.angular_velocity_world};
@@ -40,7 +42,7 @@ bool ids_less(GrainId a1, GrainId b1, GrainId a2, GrainId b2) {
 
 void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
   std::vector<SpringRange> springs(pairs.size());
-  std::vector<double> wake(pairs.size(), awake);
+  std::vector<double> wake(pairs.size(), wake_always);
   std::vector<NearPair> near(pairs.size());
   std::size_t old = 0;  // both lists are sorted by ids
   for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -105,37 +107,72 @@ PairForce GrainContacts::evaluate_pair(const Law& law, const GrainFrame& a, cons
 }
 
 template <ContactLaw Law>
+void GrainContacts::evaluate_listed(const Law& law, std::size_t p,
+                                    std::span<const GrainFrame> frames, double time_step,
+                                    std::optional<double> odometer, Scratch& scratch) {
+  const Pair& pair = pairs_[p];
+  const auto old_springs = store_.read(springs_of_pair_[p]);
+  double wake = odometer ? wake_never : wake_always;
+  const auto find = [&](const GrainFrame& master, const GrainFrame& slave, bool master_is_b,
+                        std::vector<Touch>& touches) {
+    if (!odometer) {
+      find_touches(master, slave, touches);
+      return;
+    }
+    NearList& list = master_is_b ? near_[p].of_b : near_[p].of_a;
+    wake = std::min(wake, list.find_touches(master, slave, *odometer, touches, scratch.counters));
+  };
+  new_springs_of_pair_[p] = store_.append([&](std::vector<NodeSpring>& arena) {
+    forces_[p] = evaluate_pair(law, frames[pair.slot_a], frames[pair.slot_b], old_springs,
+                               time_step, find, scratch.touches, arena);
+  });
+  // A pair that lets go of springs is looked at once more, so that both buffers are empty when it
+  // falls asleep.
+  wake_[p] = old_springs.empty() ? wake : wake_always;
+  ++scratch.counters.awake;
+  scratch.counters.touching_nodes += forces_[p].touching;
+  if (forces_[p].touching > 0) ++scratch.counters.touching_pairs;
+}
+
+template <ContactLaw Law>
 void GrainContacts::evaluate_pairs(const Law& law, std::span<const GrainFrame> frames,
                                    double time_step, bool use_near_lists) {
   const std::span<const double> travelled = meter_.travelled();
-  parallel_for(pairs_.size(), pairs_per_task, [&](std::size_t p) {
-    const Pair& pair = pairs_[p];
-    const double odometer = use_near_lists ? travelled[pair.slot_a] + travelled[pair.slot_b] : 0;
-    if (odometer < wake_[p]) return;
+  const auto odometer = [&](std::size_t p) {
+    return travelled[pairs_[p].slot_a] + travelled[pairs_[p].slot_b];
+  };
+  const std::size_t tasks = (pairs_.size() + pairs_per_task - 1) / pairs_per_task;
+  parallel_for(tasks, 1, [&](std::size_t task) {
     Scratch& mine = scratch_[static_cast<std::size_t>(thread_index())];
-    ++mine.counters.awake;
-    const auto old_springs = store_.read(springs_of_pair_[p]);
-    double wake = std::numeric_limits<double>::infinity();
-    const auto find = [&](const GrainFrame& master, const GrainFrame& slave, bool master_is_b,
-                          std::vector<Touch>& touches) {
-      if (!use_near_lists) {
-        find_touches(master, slave, touches);
-        wake = awake;
-        return;
+    const std::size_t first = task * pairs_per_task;
+    const std::size_t last = std::min(first + pairs_per_task, pairs_.size());
+    if (!use_near_lists) {
+      for (std::size_t p = first; p < last; ++p) {
+        evaluate_listed(law, p, frames, time_step, {}, mine);
       }
-      NearList& list = master_is_b ? near_[p].of_b : near_[p].of_a;
-      wake = std::min(wake, list.find_touches(master, slave, odometer, touches, mine.counters));
-    };
-    new_springs_of_pair_[p] = store_.append([&](std::vector<NodeSpring>& arena) {
-      forces_[p] = evaluate_pair(law, frames[pair.slot_a], frames[pair.slot_b], old_springs,
-                                 time_step, find, mine.touches, arena);
-    });
-    // A pair that lets go of springs is looked at once more, so that both buffers are empty when
-    // it falls asleep.
-    wake_[p] = old_springs.empty() ? wake : awake;
-    mine.counters.touching_nodes += forces_[p].touching;
-    if (forces_[p].touching > 0) ++mine.counters.touching_pairs;
+      return;
+    }
+    // Who is awake is known before the first is evaluated, so memory can be asked ahead.
+    std::array<std::size_t, pairs_per_task> awake;
+    std::size_t count = 0;
+    for (std::size_t p = first; p < last; ++p) {
+      if (!(odometer(p) < wake_[p])) awake[count++] = p;
+    }
+    for (std::size_t n = 0; n < count; ++n) {
+      if (n + prefetch_distance < count) prefetch(awake[n + prefetch_distance], frames);
+      evaluate_listed(law, awake[n], frames, time_step, odometer(awake[n]), mine);
+    }
   });
+}
+
+void GrainContacts::prefetch(std::size_t p, std::span<const GrainFrame> frames) const {
+  near_[p].of_a.prefetch();
+  near_[p].of_b.prefetch();
+  const auto* const frame = reinterpret_cast<const char*>(&frames[pairs_[p].slot_b]);
+  for (std::size_t line = 0; line < sizeof(GrainFrame); line += 64) {
+    __builtin_prefetch(frame + line);
+  }
+  __builtin_prefetch(&forces_[p], 1);
 }
 
 void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_step) {
@@ -157,7 +194,7 @@ void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_ste
 }
 
 void GrainContacts::forget_near_lists() {
-  std::fill(wake_.begin(), wake_.end(), awake);
+  std::fill(wake_.begin(), wake_.end(), wake_always);
   for (NearPair& pair : near_) pair = {};
 }
 
@@ -202,13 +239,13 @@ void GrainContacts::adopt(std::span<const PairSprings> springs) {
     if (added) {
       pairs_.push_back({pair.id_a, pair.id_b, 0, 0});
       springs_of_pair_.emplace_back();
-      wake_.push_back(awake);
+      wake_.push_back(wake_always);
       near_.emplace_back();
     }
     const std::size_t p = entry->second;
     if (springs_of_pair_[p].count > 0) continue;  // both ranks of a pair hold the same springs
     springs_of_pair_[p] = store_.adopt(pair.springs);
-    wake_[p] = awake;
+    wake_[p] = wake_always;
   }
   // Back into the order of the ids, which rebuild() relies on.
   std::vector<std::size_t> order;

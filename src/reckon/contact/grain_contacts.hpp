@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -92,6 +93,10 @@ class GrainContacts {
   template <ContactLaw Law>
   void evaluate_pairs(const Law& law, std::span<const GrainFrame> frames, double time_step,
                       bool use_near_lists);
+  template <ContactLaw Law>
+  void evaluate_listed(const Law& law, std::size_t p, std::span<const GrainFrame> frames,
+                       double time_step, std::optional<double> odometer, Scratch& scratch);
+  void prefetch(std::size_t p, std::span<const GrainFrame> frames) const;
   template <ContactLaw Law, class Find>
   PairForce evaluate_pair(const Law& law, const GrainFrame& a, const GrainFrame& b,
                           std::span<const NodeSpring> old_springs, double time_step, Find&& find,

@@ -9,7 +9,10 @@ namespace reckon {
 void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector<Touch>& touches) {
   const ShapeView& shape = *master.shape;
   const ShapeView& other = *slave.shape;
-  if (!spheres_meet(master.position - slave.position, shape, other)) return;
+  if (!spheres_meet(master.position - slave.position,
+                    shape.bounding_radius + other.bounding_radius)) {
+    return;
+  }
   const Placement at = place(master, slave);
   const double radius_squared = other.bounding_radius * other.bounding_radius;
   for (std::size_t n = 0; n < shape.node_x.size(); ++n) {

@@ -88,6 +88,8 @@ struct ShapeView {
   double bounding_radius{0};
   double lipschitz{1};
 
+  [[nodiscard]] Vec3 node(std::size_t n) const { return {node_x[n], node_y[n], node_z[n]}; }
+
   ShapeView() = default;
   ShapeView(const Shape& shape);  // NOLINT(google-explicit-constructor): a view, like span
 };

@@ -36,7 +36,7 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
       shapes_{setup_.shapes->begin(), setup_.shapes->end()},
       distribution_{ranks, setup_.decomposition, total_count(ranks, state.grains.size())},
       grain_contacts_{setup_.contact, setup_.engine},
-      wall_contacts_{setup_.walls},
+      wall_contacts_{setup_.walls, setup_.engine},
       step_{root_step(ranks, state.step)} {
   for (const ShapeView& shape : shapes_) {
     largest_radius_ = std::max(largest_radius_, shape.bounding_radius);
