@@ -30,6 +30,7 @@ struct LengthUnit {
 };
 LengthUnit unit_for(const std::vector<const Shape*>& shapes) {
   std::vector<double> diameters;
+  diameters.reserve(shapes.size());
   for (const Shape* shape : shapes) diameters.push_back(shape->descriptors.equivalent_diameter);
   const auto middle = diameters.begin() + static_cast<std::ptrdiff_t>(diameters.size() / 2);
   std::nth_element(diameters.begin(), middle, diameters.end());

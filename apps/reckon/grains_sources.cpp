@@ -83,8 +83,9 @@ void make(const std::vector<ShapeSource>& sources, const MakeOptions& options) {
 }
 
 /// Adds a subcommand that turns files into shapes, each read in a unit of length.
-void add_from_files(CLI::App& grains, const char* name, const char* description,
-                    std::function<ShapeSource(const std::string& file, double unit)> source) {
+void add_from_files(
+    CLI::App& grains, const char* name, const char* description,
+    const std::function<ShapeSource(const std::string& file, double unit)>& source) {
   CLI::App* command = grains.add_subcommand(name, description);
   auto files = std::make_shared<std::vector<std::string>>();
   auto unit = std::make_shared<std::string>();
