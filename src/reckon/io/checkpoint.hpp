@@ -17,7 +17,7 @@ struct Checkpoint {
   SimulationState state;
   double time_step{0};                       ///< [s]
   double energy_at_start{0};                 ///< EnergyBudget::total() at step 0 [J]
-  std::string scene;                         ///< as write_scene gives it
+  std::string scene;                         ///< as write_scene gives it, without its length
   std::vector<std::uint64_t> shape_digests;  ///< of the library, see avatar/library_file.hpp
   std::uint64_t acceleration_digest{0};      ///< of the grains' own accelerations
 };

@@ -35,9 +35,9 @@ double seconds_since(Clock::time_point start) {
 constexpr std::uint64_t rest_interval_without_history = 100;  // steps
 constexpr double log_interval = 60;                           // [s]
 
-/// The scene with its time step and number of steps as they came out.
+/// The scene with its time step as it came out, and with its number of steps if there is one.
 std::string resolved_scene(const SceneConfig& config, const PreparedScene& prepared,
-                           std::uint64_t steps) {
+                           std::optional<std::uint64_t> steps) {
   SceneConfig resolved = config;
   resolved.time.step = prepared.time_step.step;
   resolved.time.duration.reset();
@@ -46,12 +46,12 @@ std::string resolved_scene(const SceneConfig& config, const PreparedScene& prepa
 }
 
 /// A checkpoint of the run before its first step.
-Checkpoint first_checkpoint(const LoadedScene& scene, const PreparedScene& prepared,
-                            std::uint64_t steps) {
+Checkpoint first_checkpoint(const LoadedScene& scene, const PreparedScene& prepared) {
   Checkpoint checkpoint;
   checkpoint.state = prepared.initial;
   checkpoint.time_step = prepared.time_step.step;
-  checkpoint.scene = resolved_scene(scene.config, prepared, steps);
+  // Without its length: a run that is extended must leave the same checkpoints as a long one.
+  checkpoint.scene = resolved_scene(scene.config, prepared, std::nullopt);
   for (const Shape& shape : *scene.shapes) {
     checkpoint.shape_digests.push_back(shape_digest(shape));
   }
@@ -71,10 +71,11 @@ Start ready_folder(const RunFolder& folder, const RunOptions& options, Checkpoin
                    const std::function<void(const std::string&)>& note) {
   const std::string place = folder.root().string();
   if (options.resume && folder.holds_run()) {
+    folder.remove_leftovers();
     std::optional<Checkpoint> found = latest_checkpoint(folder, note);
     if (found) {
       require_same_run(*found, first, place);
-      found->scene = std::move(first.scene);  // the length of the run may have changed
+      found->scene = std::move(first.scene);  // what is free to change may have changed
       return {std::move(*found), true};
     }
     if (note) note("there is no checkpoint to resume from: the run starts anew");
@@ -102,8 +103,9 @@ Start ready_folder(const RunFolder& folder, const RunOptions& options, Checkpoin
 /// One session of a run.
 class Session {
  public:
-  Session(const SceneReading& reading, const LoadedScene& scene, PreparedScene prepared,
-          std::uint64_t steps, const RunOptions& options, const RunHooks& hooks, Start start)
+  Session(const std::string& text, const LoadedScene& scene, PreparedScene prepared,
+          const std::string& resolved, std::uint64_t steps, const RunOptions& options,
+          const RunHooks& hooks, Start start)
       : hooks_{hooks},
         options_{options},
         config_{scene.config},
@@ -125,8 +127,8 @@ class Session {
     record_.time_step = simulation_.setup().time_step;
     record_.first_step = progress_.first_step;
     record_.steps = steps;
-    write_file(folder_.scene(), reading.text);
-    write_file(folder_.resolved(), checkpoint_.scene);
+    write_file(folder_.scene(), text);
+    write_file(folder_.resolved(), resolved);
     if (resumed_) latest_checkpoint_ = checkpoint_.state.step;
   }
 
@@ -333,19 +335,20 @@ RunReport run_scene(const SceneReading& reading, const LoadedScene& scene,
   PreparedScene prepared = prepare(scene);
   const std::uint64_t steps = options.steps.value_or(prepared.steps);
   const RunFolder folder{options.folder};
-  Checkpoint first = first_checkpoint(scene, prepared, steps);
+  Checkpoint first = first_checkpoint(scene, prepared);
   if (folder.has_content() && !std::filesystem::is_directory(folder.root())) {
     throw Error{{.place = folder.root().string(),
                  .problem = "this is a file, not a folder",
                  .reason = {},
                  .fix = "Give another name with --out."}};
   }
-  const bool existed = folder.exists();
-  if (!existed) folder.create();
+  folder.create();
   const FolderLock lock{folder.root()};
   Start start = ready_folder(folder, options, std::move(first), hooks.note);
-  folder.create();
-  Session session{reading, scene, std::move(prepared), steps, options, hooks, std::move(start)};
+  folder.create_subfolders();
+  const std::string resolved = resolved_scene(scene.config, prepared, steps);
+  Session session{reading.text, scene, std::move(prepared), resolved, steps,
+                  options,      hooks, std::move(start)};
   return session.run();
 }
 

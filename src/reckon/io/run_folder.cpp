@@ -39,6 +39,16 @@ std::vector<std::uint64_t> numbered_files(const std::filesystem::path& folder,
   return steps;
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (!code) return;
+  throw Error{{.place = folder.string(),
+               .problem = "this folder cannot be made",
+               .reason = code.message(),
+               .fix = "Give another one with --out."}};
+}
+
 }  // namespace
 
 std::filesystem::path RunFolder::index(std::string_view kind) const {
@@ -64,25 +74,27 @@ std::vector<std::uint64_t> RunFolder::field_steps(std::string_view kind) const {
 bool RunFolder::has_content() const {
   std::error_code code;
   if (!std::filesystem::is_directory(root_, code)) return std::filesystem::exists(root_, code);
-  return !std::filesystem::is_empty(root_, code);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator{root_, code}) {
+    if (!entry.is_directory()) return true;
+  }
+  return false;
 }
 
-bool RunFolder::holds_run() const { return std::filesystem::exists(json()); }
+bool RunFolder::holds_run() const {
+  // Any of them: a run that was killed at its very beginning has only the first.
+  return std::filesystem::exists(log()) || std::filesystem::exists(resolved()) ||
+         std::filesystem::exists(json());
+}
 
-void RunFolder::create() const {
-  std::error_code code;
-  for (const auto& folder : {root_, root_ / "fields", root_ / "checkpoints"}) {
-    std::filesystem::create_directories(folder, code);
-    if (code) {
-      throw Error{{.place = folder.string(),
-                   .problem = "this folder cannot be made",
-                   .reason = code.message(),
-                   .fix = "Give another one with --out."}};
-    }
-  }
+void RunFolder::create() const { make_folder(root_); }
+
+void RunFolder::create_subfolders() const {
+  make_folder(root_ / "fields");
+  make_folder(root_ / "checkpoints");
 }
 
 void RunFolder::remove_run() const {
+  remove_leftovers();
   for (const std::uint64_t step : checkpoint_steps()) std::filesystem::remove(checkpoint(step));
   for (const char* kind : field_kinds) {
     for (const std::uint64_t step : field_steps(kind)) {
@@ -92,6 +104,17 @@ void RunFolder::remove_run() const {
   }
   for (const auto& file : {scene(), resolved(), history(), log(), json()}) {
     std::filesystem::remove(file);
+  }
+}
+
+void RunFolder::remove_leftovers() const {
+  for (const auto& folder : {root_, root_ / "fields", root_ / "checkpoints"}) {
+    std::error_code code;
+    std::vector<std::filesystem::path> leftovers;
+    for (const auto& entry : std::filesystem::directory_iterator{folder, code}) {
+      if (entry.path().extension() == ".tmp") leftovers.push_back(entry.path());
+    }
+    for (const auto& file : leftovers) std::filesystem::remove(file);
   }
 }
 

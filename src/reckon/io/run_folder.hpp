@@ -39,16 +39,19 @@ class RunFolder {
   /// Steps of all field files of a kind, ascending.
   [[nodiscard]] std::vector<std::uint64_t> field_steps(std::string_view kind) const;
 
-  [[nodiscard]] bool exists() const { return std::filesystem::exists(root_); }
-  /// Whether it holds anything at all.
+  /// Whether it holds anything at all, empty folders aside.
   [[nodiscard]] bool has_content() const;
   /// Whether a run was begun in it.
   [[nodiscard]] bool holds_run() const;
 
-  /// Makes the folder and its subfolders.
+  /// Makes the folder itself.
   void create() const;
+  /// Makes what is to hold the files in it.
+  void create_subfolders() const;
   /// Removes the files of a run, and nothing else.
   void remove_run() const;
+  /// Removes the temporary files that a killed run may have left.
+  void remove_leftovers() const;
 
  private:
   std::filesystem::path root_;

@@ -47,7 +47,7 @@ struct Choice {
   Value value;
 };
 template <class Value>  // which compilers before C++20's own rule need to be told
-Choice(std::string_view, Value) -> Choice<Value>;
+Choice(std::string_view, Value)->Choice<Value>;
 
 /// How many of the keys of one_of must be given.
 enum class Presence { exactly_one, at_most_one };
@@ -151,6 +151,7 @@ void describe(Visitor& v, BodyForceConfig& body) {
   if (v.visits(body.random_acceleration > 0)) {
     v.integer({.name = "random_interval",
                .range = at_least(1),
+               .unit_note = "steps",
                .meaning = "Steps between new random accelerations."},
               body.random_interval);
   }
@@ -212,7 +213,7 @@ void describe(Visitor& v, CylinderConfig& cylinder) {
 template <class Visitor>
 void describe(Visitor& v, FillPlacement& fill) {
   v.integer({.name = "count",
-             .range = {.low = 1, .high = 4294967295.0},
+             .range = {.low = 1, .high = 1e8},
              .required = true,
              .meaning = "How many grains to place."},
             fill.count);
@@ -471,6 +472,7 @@ void describe(Visitor& v, TimeConfig& time) {
                v.integer({.name = "steps",
                           .range = at_least(1),
                           .standard = "from duration",
+                          .unit_note = "steps",
                           .meaning = "Number of steps."},
                          time.steps);
              }
@@ -497,10 +499,12 @@ template <class Visitor>
 void describe(Visitor& v, OutputConfig& output) {
   v.integer({.name = "history_interval",
              .range = at_least(0),
+             .unit_note = "steps",
              .meaning = "Steps between rows of history.csv; 0: only start and end."},
             output.history_interval);
   v.integer({.name = "fields_interval",
              .range = at_least(0),
+             .unit_note = "steps",
              .meaning = "Steps between ParaView files; 0: only start and end."},
             output.fields_interval);
   v.flag({.name = "contacts", .meaning = "Writes contacts as lines beside the grains."},
@@ -509,6 +513,7 @@ void describe(Visitor& v, OutputConfig& output) {
          output.surfaces);
   v.integer({.name = "checkpoint_interval",
              .range = at_least(0),
+             .unit_note = "steps",
              .meaning = "Steps between checkpoints; 0: only at the end."},
             output.checkpoint_interval);
 }

@@ -54,20 +54,28 @@ class Collector {
   }
   template <class Body>
   void table(const SceneKey& key, Body&& body) {
-    add(key, "table", key.required ? "" : "its defaults");
+    add(key, "table", "all defaults");
+    const std::size_t own = schema_.rows.size() - 1;
+    const bool outer = std::exchange(needed_, false);
     inside(std::string{key.name}, body);
+    if (needed_ && !alternative_) schema_.rows[own].standard = "required";
+    needed_ = outer || (needed_ && !alternative_);
   }
   template <class Value, class Body>
   void optional_table(const SceneKey& key, std::optional<Value>&, Body&& body) {
     add(key, "table", "none");
     Value value;
+    const bool outer = needed_;
     inside(std::string{key.name}, [&] { body(value); });
+    needed_ = outer;
   }
   template <class Value, class Body>
   void tables(const SceneKey& key, std::vector<Value>&, Body&& body) {
     add(key, "list of tables", "none");
     Value value;
+    const bool outer = needed_;
     inside(std::string{key.name} + "[]", [&] { body(value); });
+    needed_ = outer;
   }
   template <class Body>
   void one_of(Presence presence, std::initializer_list<std::string_view> names, std::size_t,
@@ -79,6 +87,7 @@ class Collector {
     const bool outer = std::exchange(alternative_, presence == Presence::exactly_one);
     for (std::size_t which = 0; which < names.size(); ++which) body(which);
     alternative_ = outer;
+    needed_ = needed_ || presence == Presence::exactly_one;
   }
   void rule(bool, std::initializer_list<std::string_view>, std::string_view statement) {
     schema_.rules.push_back({table_, std::string{statement}});
@@ -87,14 +96,21 @@ class Collector {
   [[nodiscard]] bool given(std::string_view) const { return false; }
 
  private:
+  static std::string unit_of(const SceneKey& key, std::string_view type) {
+    if (!key.unit_note.empty()) return std::string{key.unit_note};
+    if (key.unit.empty() && type == "whole number") return "1";
+    return std::string{key.unit};
+  }
   void add(const SceneKey& key, std::string_view type, std::string standard,
            std::string range = {}) {
     if (!key.standard.empty()) standard = key.standard;
     if (alternative_ && key.standard.empty()) standard = "one of several";
-    if (key.required) standard = "required";
+    if (key.required) {
+      standard = "required";
+      needed_ = true;
+    }
     schema_.rows.push_back(
-        {table_, std::string{key.name}, std::string{type},
-         std::string{key.unit_note.empty() ? key.unit : key.unit_note}, std::move(standard),
+        {table_, std::string{key.name}, std::string{type}, unit_of(key, type), std::move(standard),
          range.empty() ? describe(key.range) : std::move(range), std::string{key.meaning}});
   }
   template <class Body>
@@ -109,15 +125,37 @@ class Collector {
 
   SceneSchema& schema_;
   std::string table_;
+  bool needed_{false};       // whether the table at hand cannot be left out
   bool alternative_{false};  // inside a choice of keys of which one is given
 };
 
 constexpr std::string_view introduction =
     R"(# Scene reference
 
-A scene is a [TOML](https://toml.io) file. `reckon check scene.toml` finds every fault in it and says
-what the run will do; `reckon run scene.toml` runs it. This page is made by `reckon reference scene`
-from the same description that reads scenes.
+A scene is a [TOML](https://toml.io) file that says what a run is made of. `reckon check scene.toml`
+finds every fault in it and says what the run will do; `reckon run scene.toml` runs it.
+
+```toml
+title = "Sand settles in a box"
+
+[contact]
+normal_stiffness = "5e9 N/m^3"
+restitution = 0.5
+
+[body]
+gravity = [0, 0, -9.81]
+
+[[grains]]
+library = "sand.h5"                 # made by: reckon grains
+fill = { count = 500, box = { low = [0, 0, 0], high = ["2 cm", "2 cm", "10 cm"] } }
+
+[[wall]]
+name = "box"
+box = { low = [0, 0, 0], high = ["2 cm", "2 cm", "10 cm"], open_top = true }
+
+[time]
+duration = "0.2 s"
+```
 
 **Numbers** are plain SI numbers (`0.0002`) or texts with a unit (`"0.2 mm"`), also inside vectors:
 `[0, 0, "2 mm"]`. The unit must fit: a length where a length is needed. Known units: m, g, t, s, min,
@@ -126,24 +164,22 @@ h, Hz, rad, deg, rev, rpm, N, Pa, bar, J, W, L, % and their products and powers 
 
 **Files** are found from the folder of the scene.
 
-In the tables, unit `1` is a pure number, and *required* means that there is no default.
+In the tables below, unit `1` is a pure number, *required* means that there is no default, and *one
+of several* that exactly one of these keys must be given. A table without required keys may be left
+out. This page is made by `reckon reference scene` from the same description that reads scenes.
 )";
-
 }  // namespace
 
 std::string describe(const Range& range) {
-  const bool low = range.low != -std::numeric_limits<double>::infinity();
-  const bool high = range.high != std::numeric_limits<double>::infinity();
-  if (low && high) {
-    return fmt::format("from {} to {}{}", range.low, range.high,
-                       range.low_allowed && range.high_allowed ? ""
-                       : range.high_allowed                    ? " without the first"
-                       : range.low_allowed                     ? " without the last"
-                                                               : " without the ends");
+  std::string text;
+  if (range.low != -std::numeric_limits<double>::infinity()) {
+    text = fmt::format("{} {}", range.low_allowed ? "at least" : "above", range.low);
   }
-  if (low) return fmt::format("{} {}", range.low_allowed ? "at least" : "above", range.low);
-  if (high) return fmt::format("{} {}", range.high_allowed ? "at most" : "below", range.high);
-  return {};
+  if (range.high != std::numeric_limits<double>::infinity()) {
+    if (!text.empty()) text += " and ";
+    text += fmt::format("{} {}", range.high_allowed ? "at most" : "below", range.high);
+  }
+  return text;
 }
 
 std::string table_header(const std::string& table) {

@@ -135,9 +135,8 @@ TEST_F(SceneReaderTest, AbsentKeysKeepTheDefaultsOfTheConfig) {
   SceneConfig expected;
   expected.contact.normal_stiffness = 1e9;
   expected.time.steps = 10;
-  expected.grains.push_back(
-      {.library = (directory_ / "sand.h5").string(),
-       .placement = std::vector<ExplicitGrain>{ExplicitGrain{}}});
+  expected.grains.push_back({.library = (directory_ / "sand.h5").string(),
+                             .placement = std::vector<ExplicitGrain>{ExplicitGrain{}}});
   EXPECT_EQ(write_scene(reading.config), write_scene(expected));
 }
 
@@ -172,7 +171,8 @@ TEST_F(SceneReaderTest, ListsAllFaultsOfAnInputInOneGo) {
                 "8:12: contact.node_cap: expected a whole number, found a number",
                 "10:11: grains[0].library: there is no file \"" +
                     (directory_ / "dust.h5").string() + "\"",
-                "11:14: grains[0].fill.count: 0 is out of range, must be from 1 to 4294967295",
+                "11:14: grains[0].fill.count: 0 is out of range, must be at least 1 and at most "
+                "100000000",
                 "12:38: grains[0].fill.box.high: expected 3 numbers [x, y, z], found an array of 2",
                 "15:30: wall[0].plane.normal: `normal` must not be the zero vector",
                 "16:1: wall[1]: needs one of `plane`, `box`, `cylinder`",
@@ -314,12 +314,21 @@ TEST_F(SceneReaderTest, AMissingSceneIsAnError) {
   EXPECT_THROW((void)read_scene_file(directory_), Error);
 }
 
+TEST(SceneSchema, TellsWhichTablesCannotBeLeftOut) {
+  for (const SchemaRow& row : scene_schema().rows) {
+    if (!row.table.empty() || row.type != "table") continue;
+    const bool needed = row.name == "contact" || row.name == "time";
+    EXPECT_EQ(row.standard, needed ? "required" : "all defaults") << row.name;
+  }
+}
+
 TEST(SceneSchema, EveryNumberHasAUnitAndEveryKeyAMeaningAndADefault) {
   for (const SchemaRow& row : scene_schema().rows) {
     const std::string name = row.table + "." + row.name;
     EXPECT_FALSE(row.meaning.empty()) << name;
     EXPECT_FALSE(row.standard.empty()) << name;
-    if (row.type == "number" || row.type == "3 numbers" || row.type == "4 numbers") {
+    if (row.type == "number" || row.type == "3 numbers" || row.type == "4 numbers" ||
+        row.type == "whole number") {
       EXPECT_FALSE(row.unit.empty()) << name;
     }
   }

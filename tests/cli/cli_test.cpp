@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/process.hpp"
+#include "unit/io/run_scene_fixture.hpp"
+
+namespace reckon {
+namespace {
+
+struct Outcome {
+  int code;
+  std::string out;
+  std::string err;
+};
+
+class CliTest : public testing::RunSceneTest {
+ protected:
+  void SetUp() override {
+    RunSceneTest::SetUp();
+    write("scene.toml", scene_text(usual));
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream{root_ / name} << text;
+  }
+  [[nodiscard]] testing::Process start(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), RECKON_PROGRAM);
+    return testing::Process{std::move(arguments), root_};
+  }
+  [[nodiscard]] Outcome reckon(std::vector<std::string> arguments) const {
+    testing::Process process = start(std::move(arguments));
+    const int code = process.wait();
+    return {code, process.out(), process.err()};
+  }
+  /// Waits until a run has written rows to its history.
+  void wait_for_rows(const std::string& run, std::size_t rows) const {
+    for (int tries = 0; tries < 3000; ++tries) {
+      std::ifstream file{root_ / run / "history.csv"};
+      std::string line;
+      std::size_t lines = 0;
+      while (std::getline(file, line)) ++lines;
+      if (lines > rows) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+    FAIL() << "the run does not get under way";
+  }
+  void expect_identical(const std::string& a, const std::string& b) const {
+    const Outcome outcome = reckon({"diff", a, b});
+    EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+    EXPECT_EQ(outcome.out.find("bit-identical\n"), 0U) << outcome.out;
+  }
+};
+
+TEST_F(CliTest, HelpAndVersion) {
+  const Outcome version = reckon({"--version"});
+  EXPECT_EQ(version.code, 0);
+  EXPECT_EQ(version.out.find("reckon "), 0U);
+  EXPECT_EQ(version.err, "");
+  EXPECT_EQ(reckon({"--help"}).code, 0);
+  for (const char* command : {"check", "run", "diff", "surfaces", "reference"}) {
+    const Outcome help = reckon({command, "--help"});
+    EXPECT_EQ(help.code, 0) << command;
+    EXPECT_NE(help.out.find("Example"), std::string::npos) << command;
+  }
+}
+
+TEST_F(CliTest, MisuseIsOneClearBlock) {
+  Outcome outcome = reckon({"rnu", "scene.toml"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err,
+            "reckon: error: there is no command \"rnu\". Did you mean `reckon run`?\n");
+  outcome = reckon({"run"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err.find("reckon: error: "), 0U);
+  outcome = reckon({"run", "scene.toml", "--threads", "zero"});
+  EXPECT_EQ(outcome.code, 1);
+  outcome = reckon({"run", "nothing.toml"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err, "reckon: error: nothing.toml: cannot read the scene (no such file)\n");
+}
+
+TEST_F(CliTest, CheckListsAllFaultsWithTheirPlaces) {
+  write("bad.toml",
+        "contact.normal_stiffnes = 1e9\n[time]\nsteps = -3\n[[grains]]\n"
+        "library = 'grains.h5'\n[[grains.place]]\nposition = [0, 0, 0]\n"
+        "shape = 'cube'\n");
+  const Outcome outcome = reckon({"check", "bad.toml"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.out, "");
+  for (const char* part :
+       {"reckon: error: bad.toml has 4 faults\n", "bad.toml:1:9: contact.normal_stiffnes: unknown",
+        "Did you mean `normal_stiffness`?", "bad.toml:1:1: contact.normal_stiffness: is missing",
+        "bad.toml:3:9: time.steps: -3 is out of range",
+        "bad.toml:8:9: grains[0].place[0].shape: the library has no shape \"cube\""}) {
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " not in\n" << outcome.err;
+  }
+  const Outcome json = reckon({"check", "bad.toml", "--json"});
+  EXPECT_EQ(json.code, 1);
+  EXPECT_NE(json.out.find("\"valid\": false"), std::string::npos);
+  EXPECT_NE(json.out.find("\"line\": 8"), std::string::npos);
+}
+
+TEST_F(CliTest, CheckSaysWhatTheRunWillDo) {
+  const Outcome outcome = reckon({"check", "scene.toml", "--timing", "0.1"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* part :
+       {"no faults", "grains", "24 of 2 shapes", "time step", "sqrt(m / k)", "600", "memory",
+        "25 history rows, 7 ParaView frames, 4 checkpoints", "steps really made in memory"}) {
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " not in\n" << outcome.out;
+  }
+  const Outcome json = reckon({"check", "scene.toml", "--timing", "0", "--json"});
+  EXPECT_EQ(json.code, 0);
+  EXPECT_NE(json.out.find("\"steps\": 600"), std::string::npos) << json.out;
+  EXPECT_FALSE(std::filesystem::exists(root_ / "scene.run"));
+}
+
+TEST_F(CliTest, RunsAndRefusesToRunOverARun) {
+  const Outcome outcome = reckon({"run", "scene.toml", "--steps", "60", "--threads", "2"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("complete at step 60"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(std::filesystem::exists(root_ / "scene.run" / "grains.pvd"));
+  const Outcome again = reckon({"run", "scene.toml", "--steps", "60"});
+  EXPECT_EQ(again.code, 1);
+  EXPECT_NE(again.err.find("--resume"), std::string::npos) << again.err;
+  const Outcome quiet = reckon({"run", "scene.toml", "--steps", "60", "--overwrite", "--quiet"});
+  EXPECT_EQ(quiet.code, 0) << quiet.err;
+  EXPECT_EQ(quiet.out, "");
+}
+
+TEST_F(CliTest, SignalsWriteACheckpointFromWhichTheRunGoesOn) {
+  write("long.toml", scene_text("[time]\nsteps = 4000\n[output]\nhistory_interval = 10\n"
+                                "fields_interval = 1000\n"));
+  ASSERT_EQ(reckon({"run", "long.toml", "--out", "whole"}).code, 0);
+  for (const auto& [signal, code] : {std::pair{SIGTERM, 143}, std::pair{SIGINT, 130}}) {
+    const std::string run = "parts" + std::to_string(code);
+    testing::Process process = start({"run", "long.toml", "--out", run});
+    wait_for_rows(run, 3);
+    process.send(signal);
+    EXPECT_EQ(process.wait(), code) << process.err();
+    EXPECT_NE(process.err().find("checkpoint written"), std::string::npos) << process.err();
+    EXPECT_EQ(RunFolder{root_ / run}.checkpoint_steps().size(), 1U);
+    const Outcome resumed = reckon({"run", "long.toml", "--out", run, "--resume"});
+    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    EXPECT_NE(resumed.out.find("resumed from the checkpoint of step"), std::string::npos);
+    expect_identical("whole", run);
+    expect_equal_folders(root_ / "whole", root_ / run);
+  }
+}
+
+TEST_F(CliTest, AKilledRunLeavesNoHalfFilesAndGoesOn) {
+  write("long.toml", scene_text("[time]\nsteps = 3000\n[output]\nhistory_interval = 10\n"
+                                "fields_interval = 20\ncheckpoint_interval = 50\n"));
+  ASSERT_EQ(reckon({"run", "long.toml", "--out", "whole"}).code, 0);
+  testing::Process process = start({"run", "long.toml", "--out", "parts"});
+  wait_for_rows("parts", 20);
+  process.send(SIGKILL);
+  EXPECT_EQ(process.wait(), -SIGKILL);
+  const Outcome resumed = reckon({"run", "long.toml", "--out", "parts", "--resume"});
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  expect_identical("whole", "parts");
+  expect_equal_folders(root_ / "whole", root_ / "parts");  // what was left half-written is gone
+}
+
+TEST_F(CliTest, DiffNamesTheFirstDifference) {
+  ASSERT_EQ(reckon({"run", "scene.toml", "--out", "a", "--steps", "300"}).code, 0);
+  std::string other = scene_text(usual);
+  other.replace(other.find("damping = 2"), 11, "damping = 2.0000000000000004");
+  write("other.toml", other);
+  ASSERT_EQ(reckon({"run", "other.toml", "--out", "b", "--steps", "300"}).code, 0);
+  const Outcome outcome = reckon({"diff", "a", "b"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.out.find("the runs differ\n"), 0U);
+  EXPECT_NE(outcome.out.find("checkpoint of step 150: first difference in /grain/"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find(" ulp)"), std::string::npos) << outcome.out;
+  const Outcome json = reckon({"diff", "a", "b", "--json"});
+  EXPECT_EQ(json.code, 1);
+  EXPECT_NE(json.out.find("\"identical\": false"), std::string::npos);
+  const Outcome missing = reckon({"diff", "a", "c"});
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_EQ(missing.err.find("reckon: error: c: "), 0U) << missing.err;
+}
+
+TEST_F(CliTest, SurfacesOnDemand) {
+  ASSERT_EQ(reckon({"run", "scene.toml", "--out", "a", "--steps", "160"}).code, 0);
+  const Outcome outcome = reckon({"surfaces", "a"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(RunFolder{root_ / "a"}.field_steps("surfaces"), (std::vector<std::uint64_t>{150, 160}));
+  EXPECT_TRUE(std::filesystem::exists(root_ / "a" / "surfaces.pvd"));
+  EXPECT_EQ(reckon({"surfaces", "a", "--step", "7"}).code, 1);
+}
+
+TEST_F(CliTest, ReferencePagesArePrinted) {
+  EXPECT_EQ(reckon({"reference", "scene"}).out,
+            read_file(RECKON_SOURCE_DIR "/docs/reference/scene.md"));
+  EXPECT_EQ(reckon({"reference", "history"}).out,
+            read_file(RECKON_SOURCE_DIR "/docs/reference/history.md"));
+}
+
+}  // namespace
+}  // namespace reckon

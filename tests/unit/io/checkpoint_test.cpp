@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/io/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "reckon/core/error.hpp"
+#include "reckon/core/file.hpp"
+#include "reckon/io/run_diff.hpp"
+
+namespace reckon {
+namespace {
+
+/// A state with awkward numbers in every place.
+Checkpoint awkward_checkpoint() {
+  Checkpoint checkpoint;
+  checkpoint.state.step = (std::uint64_t{1} << 53) + 1;
+  checkpoint.time_step = 1.0 / 3;
+  checkpoint.energy_at_start = -0.0;
+  checkpoint.scene = "title = \"é\"\n";
+  checkpoint.shape_digests = {std::numeric_limits<std::uint64_t>::max(), 7};
+  checkpoint.acceleration_digest = 42;
+  double next = 0.1;
+  const auto number = [&] { return next = std::fma(next, 1.37, -0.01); };
+  const auto vector = [&] { return Vec3{number(), -number(), number()}; };
+  for (const std::uint32_t id : {0U, 1U, 4294967295U}) {
+    GrainState grain;
+    grain.id = GrainId{id};
+    grain.shape = ShapeId{id == 1 ? 1U : 0U};
+    grain.prescribed = id == 1;
+    grain.position = vector();
+    grain.orientation = {number(), number(), number(), number()};
+    grain.velocity = {-0.0, std::numeric_limits<double>::denorm_min(), 1e308};
+    grain.angular_velocity_body = vector();
+    grain.angular_increment_body = vector();
+    grain.ledger = {number(), number(), number(), number(), number()};
+    checkpoint.state.grains.push_back(grain);
+  }
+  const auto spring = [&](std::uint32_t node, bool b) {
+    return NodeSpring{node, b, vector(), vector()};
+  };
+  checkpoint.state.pair_springs = {
+      {GrainId{0}, GrainId{1}, {spring(3, false), spring(9, false), spring(2, true)}},
+      {GrainId{1}, GrainId{4294967295U}, {spring(5, true)}}};
+  checkpoint.state.wall_springs = {{GrainId{1}, WallId{2}, {spring(8, false)}}};
+  return checkpoint;
+}
+
+class CheckpointTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = std::filesystem::path{testing::TempDir()} /
+            (std::string{"checkpoint."} +
+             testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5");
+  }
+  void TearDown() override { std::filesystem::remove(path_); }
+  std::filesystem::path path_;
+};
+
+TEST_F(CheckpointTest, ReadsBackTheSameBits) {
+  const Checkpoint written = awkward_checkpoint();
+  write_checkpoint(path_, written);
+  const Checkpoint read = read_checkpoint(path_);
+  EXPECT_EQ(first_difference(written.state, read.state), std::nullopt);
+  EXPECT_EQ(read.state.step, written.state.step);
+  EXPECT_EQ(read.state.grains, written.state.grains);
+  ASSERT_EQ(read.state.pair_springs.size(), 2U);
+  EXPECT_EQ(read.state.pair_springs[0].springs, written.state.pair_springs[0].springs);
+  EXPECT_EQ(read.state.pair_springs[1].id_b, GrainId{4294967295U});
+  EXPECT_EQ(read.state.wall_springs[0].springs, written.state.wall_springs[0].springs);
+  EXPECT_EQ(read.time_step, written.time_step);
+  EXPECT_TRUE(std::signbit(read.energy_at_start));
+  EXPECT_EQ(read.scene, written.scene);
+  EXPECT_EQ(read.shape_digests, written.shape_digests);
+  EXPECT_EQ(read.acceleration_digest, written.acceleration_digest);
+}
+
+TEST_F(CheckpointTest, EqualCheckpointsAreEqualFiles) {
+  write_checkpoint(path_, awkward_checkpoint());
+  const std::string first = read_file(path_);
+  write_checkpoint(path_, awkward_checkpoint());
+  EXPECT_TRUE(read_file(path_) == first);
+}
+
+TEST_F(CheckpointTest, AStateWithoutContactsOrGrains) {
+  Checkpoint empty;
+  empty.scene = "x";
+  empty.shape_digests = {1};
+  write_checkpoint(path_, empty);
+  const Checkpoint read = read_checkpoint(path_);
+  EXPECT_TRUE(read.state.grains.empty());
+  EXPECT_TRUE(read.state.pair_springs.empty());
+  EXPECT_TRUE(read.state.wall_springs.empty());
+}
+
+TEST_F(CheckpointTest, RefusesDamageAnywhere) {
+  write_checkpoint(path_, awkward_checkpoint());
+  const std::string good = read_file(path_);
+  for (std::size_t at = 0; at < good.size(); at += 997) {
+    std::string bad = good;
+    bad[at] = static_cast<char>(bad[at] ^ 4);
+    write_file(path_, bad);
+    EXPECT_THROW((void)read_checkpoint(path_), Error) << "byte " << at;
+  }
+  for (const std::size_t length : {std::size_t{0}, std::size_t{100}, good.size() - 1}) {
+    write_file(path_, good.substr(0, length));
+    EXPECT_THROW((void)read_checkpoint(path_), Error) << "length " << length;
+  }
+}
+
+TEST(StateDifference, NamesAOneUlpChange) {
+  const SimulationState a = awkward_checkpoint().state;
+  SimulationState b = a;
+  b.grains[2].velocity.z = std::nextafter(b.grains[2].velocity.z, 0);
+  const auto grain = first_difference(a, b);
+  ASSERT_TRUE(grain.has_value());
+  EXPECT_EQ(grain->what, "/grain/velocity");
+  EXPECT_EQ(grain->where, "grain 4294967295, z");
+  EXPECT_EQ(grain->ulps, 1U);
+
+  b = a;
+  Vec3& force = b.pair_springs[0].springs[2].shear_force;
+  force.x = std::nextafter(force.x, 1e300);
+  const auto spring = first_difference(a, b);
+  ASSERT_TRUE(spring.has_value());
+  EXPECT_EQ(spring->what, "/pair_spring/shear_force");
+  EXPECT_EQ(spring->where, "pair of grains 0 and 1, node 2, x");
+
+  b = a;
+  b.grains[0].velocity.x = 0.0;  // was -0.0
+  const auto zero = first_difference(a, b);
+  ASSERT_TRUE(zero.has_value());
+  EXPECT_EQ(zero->ulps, 0U);
+
+  b = a;
+  b.wall_springs.clear();
+  const auto rows = first_difference(a, b);
+  ASSERT_TRUE(rows.has_value());
+  EXPECT_EQ(rows->where, "number of rows");
+}
+
+TEST(Ulps, CountsDoublesInBetween) {
+  EXPECT_EQ(ulps_between(1.0, std::nextafter(1.0, 2)), 1U);
+  EXPECT_EQ(ulps_between(-std::numeric_limits<double>::denorm_min(),
+                         std::numeric_limits<double>::denorm_min()),
+            2U);
+  EXPECT_EQ(ulps_between(0.0, -0.0), 0U);
+  EXPECT_EQ(ulps_between(1.0, NAN), std::nullopt);
+}
+
+}  // namespace
+}  // namespace reckon

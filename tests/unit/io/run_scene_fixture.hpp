@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/core/file.hpp"
+#include "reckon/io/run.hpp"
+#include "reckon/io/run_folder.hpp"
+#include "reckon/io/scene_loader.hpp"
+#include "reckon/parallel/threads.hpp"
+#include "support/test_shapes.hpp"
+
+namespace reckon::testing {
+
+/// A folder with a small shape library and a scene in which 24 uneven grains fall into a box that
+/// one moving wall squeezes: all kinds of state are in use.
+class RunSceneTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    set_thread_count(1);  // small scenes on a busy machine: threads would mostly wait
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    root_ = std::filesystem::path{::testing::TempDir()} /
+            (std::string{info->test_suite_name()} + "." + info->name());
+    std::filesystem::remove_all(root_);
+    std::filesystem::create_directories(root_);
+    save_library(root_ / "grains.h5", {bumpy_grain(0.001, 120, 16), sphere(0.001, 100, 16)});
+  }
+  void TearDown() override {
+    if (!HasFailure()) std::filesystem::remove_all(root_);
+  }
+
+  /// `[time]` and `[output]` come from the caller.
+  [[nodiscard]] static std::string scene_text(const std::string& more) {
+    return R"(title = "Squeezed grains"
+seed = 5
+[material]
+friction = 0.4
+[contact]
+normal_stiffness = "2e9 N/m^3"
+restitution = 0.5
+[body]
+gravity = [0, 0, -9.81]
+damping = 2
+random_acceleration = 3
+random_interval = 7
+[[grains]]
+library = "grains.h5"
+[grains.fill]
+count = 24
+velocity = [0, 0, -0.6]
+box = { low = [0, 0, 0], high = ["7 mm", "7 mm", "20 mm"] }
+[[wall]]
+name = "box"
+box = { low = [0, 0, 0], high = ["7 mm", "7 mm", "20 mm"], open_top = true }
+[[wall]]
+name = "plate"
+plane = { point = [0, 0, "20 mm"], normal = [0, 0, -1] }
+motion = { velocity = [0, 0, -0.4] }
+)" + more;
+  }
+  static constexpr const char* usual =
+      "[time]\nsteps = 600\n[output]\nhistory_interval = 25\nfields_interval = 100\n"
+      "checkpoint_interval = 150\n";
+
+  [[nodiscard]] SceneReading read(const std::string& text) const {
+    SceneReading reading = read_scene_text(text, root_);
+    for (const SceneFault& fault : reading.faults) ADD_FAILURE() << describe(fault, "scene");
+    return reading;
+  }
+
+  RunReport run(const std::string& text, RunOptions options, const RunHooks& hooks = {}) const {
+    SceneReading reading = read(text);
+    const LoadedScene scene = load_scene(reading);
+    for (const SceneFault& fault : reading.faults) ADD_FAILURE() << describe(fault, "scene");
+    return run_scene(reading, scene, options, hooks);
+  }
+  /// Runs until `step`, then stops as a signal would stop it.
+  RunReport run_until(std::uint64_t step, const std::string& text, RunOptions options) const {
+    std::uint64_t at = 0;
+    RunHooks hooks;
+    // Asked before `progressed` tells of the same step.
+    hooks.stop_requested = [&] { return at + 1 >= step; };
+    hooks.progressed = [&](const RunProgress& progress) { at = progress.step; };
+    return run(text, std::move(options), hooks);
+  }
+
+  /// All files of a run by name, but for those that tell when and how fast it ran.
+  [[nodiscard]] static std::map<std::string, std::string> files_of(
+      const std::filesystem::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator{folder}) {
+      if (!entry.is_regular_file()) continue;
+      const std::string name = entry.path().lexically_relative(folder).string();
+      if (name == "run.log" || name == "run.json") continue;
+      files[name] = read_file(entry.path());
+    }
+    return files;
+  }
+  static void expect_equal_folders(const std::filesystem::path& a, const std::filesystem::path& b) {
+    const auto first = files_of(a);
+    const auto second = files_of(b);
+    for (const auto& [name, content] : first) {
+      const auto other = second.find(name);
+      ASSERT_NE(other, second.end()) << name << " is only in " << a;
+      EXPECT_TRUE(other->second == content) << name << " differs";
+    }
+    for (const auto& [name, content] : second) {
+      EXPECT_TRUE(first.contains(name)) << name << " is only in " << b;
+    }
+  }
+
+  std::filesystem::path root_;
+};
+
+}  // namespace reckon::testing

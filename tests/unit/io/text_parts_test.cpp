@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "reckon/core/error.hpp"
+#include "reckon/io/human.hpp"
+#include "reckon/io/json_writer.hpp"
+#include "reckon/io/number_table.hpp"
+
+namespace reckon {
+namespace {
+
+TEST(NumberTable, ReadsRows) {
+  EXPECT_EQ(read_number_table_text("1 2 3\n# note\n4,5e-1,+6\r\n\n\n", 3, "f"),
+            (std::vector<double>{1, 2, 3, 4, 0.5, 6}));
+  EXPECT_TRUE(read_number_table_text("", 3, "f").empty());
+}
+
+TEST(NumberTable, NamesTheLineAtFault) {
+  const auto message = [](const char* text) -> std::string {
+    try {
+      (void)read_number_table_text(text, 3, "file.dat");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(message("1 2 3\n1 2\n"), "file.dat:2: has 2 numbers (3 are needed)");
+  EXPECT_EQ(message("1 2 3 4\n"), "file.dat:1: has 4 numbers (3 are needed)");
+  EXPECT_EQ(message("1 x 3\n"), "file.dat:1: \"x\" is not a finite number (number 2 of the line)");
+  EXPECT_EQ(message("1 nan 3\n"),
+            "file.dat:1: \"nan\" is not a finite number (number 2 of the line)");
+  EXPECT_EQ(message("1 2 3\n\n1 2 3\n"), "file.dat:2: is an empty line between others");
+}
+
+TEST(JsonWriter, NestsAndEscapes) {
+  JsonWriter json;
+  json.begin_object();
+  json.value("text", "a \"b\"\n\\");
+  json.value("third", 1.0 / 3);
+  json.value("none", std::numeric_limits<double>::infinity());
+  json.value("yes", true);
+  json.begin_array("list");
+  json.begin_object();
+  json.value("count", 3U);
+  json.end();
+  json.value("end");
+  json.end();
+  json.begin_object("empty");
+  json.end();
+  json.end();
+  EXPECT_EQ(json.text(),
+            "{\n"
+            "  \"text\": \"a \\\"b\\\"\\u000a\\\\\",\n"
+            "  \"third\": 0.3333333333333333,\n"
+            "  \"none\": null,\n"
+            "  \"yes\": true,\n"
+            "  \"list\": [\n"
+            "    {\n"
+            "      \"count\": 3\n"
+            "    },\n"
+            "    \"end\"\n"
+            "  ],\n"
+            "  \"empty\": {}\n"
+            "}\n");
+}
+
+TEST(Human, Sizes) {
+  EXPECT_EQ(human_bytes(999), "999 B");
+  EXPECT_EQ(human_bytes(12345), "12.3 kB");
+  EXPECT_EQ(human_bytes(999999), "1 MB");
+  EXPECT_EQ(human_duration(0.42), "0.42 s");
+  EXPECT_EQ(human_duration(200), "3 min 20 s");
+  EXPECT_EQ(human_duration(7500), "2 h 05 min");
+  EXPECT_EQ(human_duration(273600), "3 d 04 h");
+  EXPECT_EQ(human_count(7), "7");
+  EXPECT_EQ(human_count(123), "123");
+  EXPECT_EQ(human_count(1234567), "1,234,567");
+}
+
+}  // namespace
+}  // namespace reckon
