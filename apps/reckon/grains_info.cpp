@@ -148,6 +148,7 @@ void add_grains_info(CLI::App& grains) {
   };
   CLI::App* command =
       grains.add_subcommand("info", "Check a shape library and print a table of its grains");
+  command->footer("Example:\n  reckon grains info sand.h5 --shape grain_3 --json");
   auto options = std::make_shared<Options>();
   command->add_option("library", options->library, "Shape library (.h5) or legacy folder")
       ->required();
