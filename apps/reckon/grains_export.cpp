@@ -37,6 +37,7 @@ void add_grains_export(CLI::App& grains) {
   };
   CLI::App* command = grains.add_subcommand(
       "export", "Write the grains' surfaces, as contact sees them, for ParaView or as meshes");
+  command->footer("Example:\n  reckon grains export sand.h5 --format stl --out look");
   auto options = std::make_shared<Options>();
   command->add_option("library", options->library, "Shape library (.h5) or legacy folder")
       ->required();

@@ -30,6 +30,7 @@ struct LengthUnit {
 };
 LengthUnit unit_for(const std::vector<const Shape*>& shapes) {
   std::vector<double> diameters;
+  diameters.reserve(shapes.size());
   for (const Shape* shape : shapes) diameters.push_back(shape->descriptors.equivalent_diameter);
   const auto middle = diameters.begin() + static_cast<std::ptrdiff_t>(diameters.size() / 2);
   std::nth_element(diameters.begin(), middle, diameters.end());
@@ -147,6 +148,7 @@ void add_grains_info(CLI::App& grains) {
   };
   CLI::App* command =
       grains.add_subcommand("info", "Check a shape library and print a table of its grains");
+  command->footer("Example:\n  reckon grains info sand.h5 --shape grain_3 --json");
   auto options = std::make_shared<Options>();
   command->add_option("library", options->library, "Shape library (.h5) or legacy folder")
       ->required();

@@ -23,6 +23,7 @@ void add_grains_legacy(CLI::App& grains) {
   {
     CLI::App* command = grains.add_subcommand(
         "from-legacy", "Grains from a folder of LS-DEM morphology files, morph_1.dat, ...");
+    command->footer("Example:\n  reckon grains from-legacy Morphologies --voxel 13um -o sand.h5");
     auto options = std::make_shared<Options>();
     command->add_option("folder", options->input, "Folder with the files")
         ->required()
@@ -42,6 +43,7 @@ void add_grains_legacy(CLI::App& grains) {
   }
   CLI::App* command = grains.add_subcommand(
       "to-legacy", "Write a shape library as LS-DEM morphology files, one voxel per grid spacing");
+  command->footer("Example:\n  reckon grains to-legacy sand.h5 Morphologies");
   auto options = std::make_shared<Options>();
   command->add_option("library", options->input, "Shape library (.h5)")
       ->required()

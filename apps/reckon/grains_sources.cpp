@@ -83,9 +83,11 @@ void make(const std::vector<ShapeSource>& sources, const MakeOptions& options) {
 }
 
 /// Adds a subcommand that turns files into shapes, each read in a unit of length.
-void add_from_files(CLI::App& grains, const char* name, const char* description,
-                    std::function<ShapeSource(const std::string& file, double unit)> source) {
+void add_from_files(
+    CLI::App& grains, const char* name, const char* description, const char* example,
+    const std::function<ShapeSource(const std::string& file, double unit)>& source) {
   CLI::App* command = grains.add_subcommand(name, description);
+  command->footer(std::string{"Example:\n  "} + example);
   auto files = std::make_shared<std::vector<std::string>>();
   auto unit = std::make_shared<std::string>();
   command->add_option("files", *files, "Files, one grain each; a grain is named after its file")
@@ -104,6 +106,9 @@ void add_from_files(CLI::App& grains, const char* name, const char* description,
 void add_from_harmonics(CLI::App& grains) {
   CLI::App* command = grains.add_subcommand(
       "from-harmonics", "Grains from spherical-harmonic coefficients, lines `n m Re Im`");
+  command->footer(
+      "Example:\n  reckon grains from-harmonics anm/*.dat --unit mm --degree-table geometry.dat "
+      "-o rock.h5");
   struct Options {
     std::vector<std::string> files;
     std::string unit;
@@ -189,6 +194,7 @@ std::vector<ShapeSource> solid_sources(const SolidOptions& own) {
 void add_solid(CLI::App& grains) {
   CLI::App* command =
       grains.add_subcommand("solid", "Grains of simple form; each option may be given repeatedly");
+  command->footer("Example:\n  reckon grains solid --sphere 1mm --box 2mm,1.5mm,1mm -o solids.h5");
   auto own = std::make_shared<SolidOptions>();
   const auto add = [&](const char* name, std::vector<std::string>& values, const char* form,
                        const char* what) {
@@ -228,6 +234,7 @@ struct GenerateOptions {
 void add_generate(CLI::App& grains) {
   CLI::App* command =
       grains.add_subcommand("generate", "Random sand-like grains with given statistics");
+  command->footer("Example:\n  reckon grains generate --count 40 --seed 7 --d50 0.3mm -o sand.h5");
   auto own = std::make_shared<GenerateOptions>();
   GrainStatistics& s = own->statistics;
   command->add_option("--count", own->count, "Number of grains")
@@ -280,10 +287,12 @@ void add_grains_sources(CLI::App& grains) {
   add_generate(grains);
   add_solid(grains);
   add_from_files(grains, "from-mesh", "Grains from closed surfaces: STL, OBJ or PLY files",
+                 "reckon grains from-mesh scans/*.stl --unit mm -o scans.h5",
                  [](const std::string& file, double unit) { return mesh_file_source(file, unit); });
   add_from_harmonics(grains);
   add_from_files(
       grains, "from-grid", "Grains from signed-distance grids in LAMMPS-style text",
+      "reckon grains from-grid clay.txt --unit um -o clay.h5",
       [](const std::string& file, double unit) { return level_set_file_source(file, unit); });
 }
 

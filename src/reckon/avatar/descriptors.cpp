@@ -94,10 +94,11 @@ class CellLists {
 double inscribed_radius(const TriangleBvh& bvh, const LevelSetView& grid) {
   const auto lowest = std::min_element(grid.values.begin(), grid.values.end());
   const auto index = static_cast<std::int64_t>(lowest - grid.values.begin());
-  const std::int64_t row = index / grid.dims[0];
-  Vec3 best = grid.origin_body + grid.spacing * Vec3{static_cast<double>(index % grid.dims[0]),
-                                                     static_cast<double>(row % grid.dims[1]),
-                                                     static_cast<double>(row / grid.dims[1])};
+  const auto i = static_cast<std::int32_t>(index % grid.dims[0]);
+  const auto j = static_cast<std::int32_t>(index / grid.dims[0] % grid.dims[1]);
+  const auto k = static_cast<std::int32_t>(index / grid.dims[0] / grid.dims[1]);
+  Vec3 best = grid.origin_body + grid.spacing * Vec3{static_cast<double>(i), static_cast<double>(j),
+                                                     static_cast<double>(k)};
   double deepest = -bvh.signed_distance(best);
   const auto consider = [&](const Vec3& p) {
     const double depth = -bvh.signed_distance(p);
@@ -112,9 +113,10 @@ double inscribed_radius(const TriangleBvh& bvh, const LevelSetView& grid) {
   while (step > finest && finest > 0) {
     const Vec3 center = best;
     bool improved = false;
-    for (int d = 0; d < 27; ++d) {
-      const Vec3 direction{d % 3 - 1.0, d / 3 % 3 - 1.0, d / 9 - 1.0};
-      improved |= consider(center + step * direction);
+    for (const double x : {-step, 0.0, step}) {
+      for (const double y : {-step, 0.0, step}) {
+        for (const double z : {-step, 0.0, step}) improved |= consider(center + Vec3{x, y, z});
+      }
     }
     if (!improved) step /= 2;
   }

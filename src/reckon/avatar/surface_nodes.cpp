@@ -218,6 +218,7 @@ std::vector<double> tributary_areas(const OrientedPoints& points, const Oriented
     ++share[nearest.find(samples.position[s], samples.normal[s])];
   }
   std::vector<double> areas;
+  areas.reserve(points.size());
   for (const std::uint32_t samples_here : share) {
     areas.push_back(area * samples_here / static_cast<double>(samples.size()));
   }
