@@ -19,8 +19,7 @@ SPDX_LINES = (
     "SPDX-License-Identifier: BSD-3-Clause",
 )
 CPP_SUFFIXES = (".cpp", ".hpp")
-FUZZ_INPUTS = "tests/fuzz/regressions/"  # kept as they were found
-COMMENTED_SUFFIXES = CPP_SUFFIXES + (".py", ".sh", ".cmake", ".toml")
+COMMENTED_SUFFIXES = CPP_SUFFIXES + (".py", ".sh", ".cmake")
 LONGEST_FILE = 500  # lines; nine in ten should stay under 250
 MPI_MODULES = ("parallel", "domain", "io")
 
@@ -193,8 +192,6 @@ def random_numbers_are_counter_based(project):
 def files_name_their_licence(project):
     """Two SPDX lines open every source and script."""
     for path, text in sorted(project.files.items()):
-        if path.startswith(FUZZ_INPUTS):
-            continue
         name = path.rsplit("/", 1)[-1]
         wanted = (path.endswith(COMMENTED_SUFFIXES) or name == "CMakeLists.txt"
                   or text.startswith("#!"))

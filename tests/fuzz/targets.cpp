@@ -16,7 +16,10 @@ std::vector<Target> all_targets() {
           legacy_positions_target(),
           legacy_rotations_target(),
           level_set_text_target(),
-          shape_library_target()};
+          shape_library_target(),
+          checkpoint_target(),
+          history_target(),
+          number_table_target()};
 }
 
 }  // namespace reckon::fuzz

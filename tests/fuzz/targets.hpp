@@ -17,5 +17,8 @@ namespace reckon::fuzz {
 [[nodiscard]] Target legacy_rotations_target();
 [[nodiscard]] Target level_set_text_target();
 [[nodiscard]] Target shape_library_target();
+[[nodiscard]] Target checkpoint_target();
+[[nodiscard]] Target history_target();
+[[nodiscard]] Target number_table_target();
 
 }  // namespace reckon::fuzz

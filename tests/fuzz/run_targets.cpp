@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "reckon/core/file.hpp"
+#include "reckon/io/checkpoint.hpp"
+#include "reckon/io/history.hpp"
+#include "reckon/io/number_table.hpp"
+#include "scratch.hpp"
+#include "sealed_damage.hpp"
+#include "targets.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+/// Three grains in a row; the first two touch, and so do the last and a wall.
+Checkpoint small_checkpoint() {
+  Checkpoint checkpoint;
+  checkpoint.state.step = 40;
+  for (std::uint32_t n = 0; n < 3; ++n) {
+    GrainState grain;
+    grain.id = GrainId{n};
+    grain.shape = ShapeId{n % 2};
+    grain.position = {0.5 * n, 1, 2};
+    grain.velocity = {0, -0.1 * n, 0};
+    checkpoint.state.grains.push_back(grain);
+  }
+  const NodeSpring spring{.node = 7, .shear_force = {1e-3, 0, 0}, .normal = {0, 0, 1}};
+  checkpoint.state.pair_springs.push_back({GrainId{0}, GrainId{1}, {spring, spring}});
+  checkpoint.state.wall_springs.push_back({GrainId{2}, WallId{0}, {spring}});
+  checkpoint.time_step = 1e-6;
+  checkpoint.scene = "title = \"three grains\"\n";
+  checkpoint.shape_digests = {11, 12};
+  return checkpoint;
+}
+
+}  // namespace
+
+Target checkpoint_target() {
+  const auto folder = std::make_shared<const ScratchFolder>();
+  return {.name = "checkpoint",
+          .valid_inputs =
+              [folder] {
+                const std::filesystem::path file = folder->path() / "valid.h5";
+                write_checkpoint(file, small_checkpoint());
+                return std::vector<std::string>{read_file(file)};
+              },
+          .read =
+              [folder](const std::string& input) {
+                (void)read_checkpoint(folder->write("checkpoint.h5", input));
+              },
+          .damage =
+              [folder](std::string_view input, RandomStream& random) {
+                return damaged_sealed_file(input, random, folder->path());
+              },
+          .cost = 10};
+}
+
+Target history_target() {
+  const auto folder = std::make_shared<const ScratchFolder>();
+  return {
+      .name = "history",
+      .valid_inputs =
+          [] {
+            return std::vector<std::string>{"step,time_s,contacts\n0,0,0\n100,0.5,12\n200,1e0,7\n"};
+          },
+      .read =
+          [folder](const std::string& input) {
+            const HistoryTable table = read_history(folder->write("history.csv", input));
+            for (const auto& row : table.rows) {
+              if (row.size() != table.header.size()) throw std::logic_error("a ragged row");
+            }
+          },
+      .cost = 2};
+}
+
+Target number_table_target() {
+  return {.name = "number_table",
+          .valid_inputs = [] { return std::vector<std::string>{"# x y z\n1, 2 -3e-4\n0 0 1\n\n"}; },
+          .read =
+              [](const std::string& input) {
+                const std::vector<double> numbers = read_number_table_text(input, 3, "table.dat");
+                if (numbers.size() % 3 != 0) throw std::logic_error("a ragged row");
+                for (const double number : numbers) {
+                  if (!std::isfinite(number)) throw std::logic_error("no finite number");
+                }
+              }};
+}
+
+}  // namespace reckon::fuzz
