@@ -111,8 +111,9 @@ TEST_F(CliTest, CheckSaysWhatTheRunWillDo) {
   const Outcome outcome = reckon({"check", "scene.toml", "--timing", "0.1"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   for (const char* part :
-       {"no faults", "grains", "24 of 2 shapes", "time step", "sqrt(m / k)", "600", "memory",
-        "25 history rows, 7 ParaView frames, 4 checkpoints", "steps really made in memory"}) {
+       {"no faults", "grains", "24, of 2 of the library's 2 shapes", "time step", "sqrt(m / k)",
+        "600", "memory", "25 history rows, 7 ParaView frames, 4 checkpoints",
+        "steps really made in memory"}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " not in\n" << outcome.out;
   }
   const Outcome json = reckon({"check", "scene.toml", "--timing", "0", "--json"});

@@ -261,7 +261,7 @@ class Session {
     const char* status = end == RunEnd::interrupted ? "interrupted"
                          : end == RunEnd::at_rest   ? "at rest"
                                                     : "complete";
-    note(fmt::format("{} at step {} of {}", status, progress_.step, progress_.steps));
+    log_.write(fmt::format("{} at step {} of {}", status, progress_.step, progress_.steps));
     save_record(status);
     const EnergyBudget& energy = last_.energy;
     return {.end = end,
@@ -287,7 +287,7 @@ class Session {
     }
     RunFailure failure{text};
     record_.message = failure.what();
-    note(fmt::format("failed: {}", failure.what()));
+    log_.write(fmt::format("failed: {}", failure.what()));
     try {
       save_record("failed");
     } catch (const Error&) {
