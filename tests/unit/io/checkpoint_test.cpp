@@ -52,7 +52,7 @@ Checkpoint awkward_checkpoint() {
   return checkpoint;
 }
 
-class CheckpointTest : public testing::Test {
+class CheckpointTest : public ::testing::Test {
  protected:
   void SetUp() override { path_ = testing::test_path(); }
   void TearDown() override { std::filesystem::remove(path_); }

@@ -30,7 +30,7 @@ Measurement measurement_at(std::uint64_t step) {
   return m;
 }
 
-class HistoryTest : public testing::Test {
+class HistoryTest : public ::testing::Test {
  protected:
   void SetUp() override { path_ = testing::test_path(); }
   void TearDown() override { std::filesystem::remove(path_); }

@@ -20,7 +20,7 @@ namespace reckon {
 namespace {
 
 /// A folder with an empty shape library in it, so that scenes can name one.
-class SceneReaderTest : public testing::Test {
+class SceneReaderTest : public ::testing::Test {
  protected:
   void SetUp() override {
     directory_ = testing::test_path();
