@@ -75,6 +75,8 @@ class SourceRules(unittest.TestCase):
         for loud in ("std::cerr << 1;", 'printf("x");', 'fmt::print("x");', "std::exit(1);", "abort();"):
             self.assertEqual(len(complaints(rule, src__reckon__core__a_cpp=loud)), 1, loud)
         self.assertEqual(complaints(rule, apps__reckon__main_cpp="std::cout << 1;"), [])
+        self.assertEqual(complaints(rule, src__reckon__parallel__communicator_cpp="std::_Exit(1);"), [])
+        self.assertEqual(len(complaints(rule, src__reckon__parallel__threads_cpp="std::_Exit(1);")), 1)
 
     def test_mpi_stays_in_its_modules(self):
         rule = source_rules.mpi_stays_in_its_modules

@@ -264,7 +264,8 @@ TriangleMesh generate_grain(const GrainStatistics& statistics, std::uint64_t see
   // The rest is small and is made exact by scaling along the principal axes, which stay principal.
   const RoughSphere fine{basis, roughness, frequency};
   TriangleMesh grain = to_principal_frame(fine.on({faces, form.roundness}));
-  grain = scaled(std::move(grain), form_factors(extents_of(grain), form));
+  const Vec3 factors = form_factors(extents_of(grain), form);
+  grain = scaled(std::move(grain), factors);
   const double volume = solid_properties(grain).volume;
   const double target = std::numbers::pi / 6 * form.diameter * form.diameter * form.diameter;
   const double size = portable::cbrt(target / volume);

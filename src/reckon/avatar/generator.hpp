@@ -57,8 +57,8 @@ struct GrainStatistics {
 /// `frequency` divides the geodesic sphere that carries the surface (20 frequency^2 triangles) and
 /// must be at least highest_degree, so that no wavelength gets less than five edges.
 ///
-/// Only operations that IEEE 754 rounds exactly are used up to the axes of inertia (Eigen), so that
-/// one seed gives the same grain on every machine with the same build.
+/// Only operations that IEEE 754 rounds exactly are used, in a fixed order: one seed gives the same
+/// bits on every machine.
 [[nodiscard]] TriangleMesh generate_grain(const GrainStatistics& statistics, std::uint64_t seed,
                                           std::uint64_t index, std::uint32_t frequency = 24);
 

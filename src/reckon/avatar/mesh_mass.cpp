@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/avatar/mesh_mass.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "reckon/math/symmetric_eigen.hpp"
 
 namespace reckon {
 namespace {
@@ -60,21 +61,18 @@ Vec3 nearest_axis_across(const Vec3& axis) {
   return with_direction(normalized(best));
 }
 
-Mat3 axes_of(const Eigen::Matrix3d& eigenvectors, const Vec3& moments) {
-  const auto column = [&](int i) {
-    return Vec3{eigenvectors(0, i), eigenvectors(1, i), eigenvectors(2, i)};
-  };
+Mat3 axes_of(const Mat3& vectors, const Vec3& moments) {
   const double tolerance = degenerate_moments * std::abs(moments.z);
   const bool low_pair = moments.y - moments.x <= tolerance;
   const bool high_pair = moments.z - moments.y <= tolerance;
   if (low_pair && high_pair) return {};
   if (low_pair) {
-    const Vec3 z = with_direction(column(2));
+    const Vec3 z = with_direction(vectors.row_z);
     const Vec3 x = nearest_axis_across(z);
     return {x, cross(z, x), z};
   }
-  const Vec3 x = with_direction(column(0));
-  const Vec3 y = high_pair ? nearest_axis_across(x) : with_direction(column(1));
+  const Vec3 x = with_direction(vectors.row_x);
+  const Vec3 y = high_pair ? nearest_axis_across(x) : with_direction(vectors.row_y);
   return {x, y, cross(x, y)};
 }
 
@@ -103,14 +101,8 @@ SolidProperties solid_properties(const TriangleMesh& mesh) {
 }
 
 PrincipalFrame principal_frame(const SolidProperties& properties) {
-  const Mat3& inertia = properties.inertia;
-  Eigen::Matrix3d matrix;
-  matrix << inertia.row_x.x, inertia.row_x.y, inertia.row_x.z,  //
-      inertia.row_y.x, inertia.row_y.y, inertia.row_y.z,        //
-      inertia.row_z.x, inertia.row_z.y, inertia.row_z.z;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver{matrix};
-  const Vec3 moments{solver.eigenvalues()(0), solver.eigenvalues()(1), solver.eigenvalues()(2)};
-  return {properties.centroid, axes_of(solver.eigenvectors(), moments), moments};
+  const SymmetricEigen eigen = symmetric_eigen(properties.inertia);
+  return {properties.centroid, axes_of(eigen.vectors, eigen.values), eigen.values};
 }
 
 TriangleMesh to_frame(TriangleMesh mesh, const PrincipalFrame& frame) {

@@ -108,10 +108,11 @@ bool has_binary_size(std::string_view bytes) {
 
 bool looks_like_text(std::string_view bytes) {
   const std::string_view start = bytes.substr(0, 1024);
-  const bool has_control_codes =
-      start.find_first_of(std::string_view{"\0\1\2\3\4\5\6\7\x0e\x0f", 10}) != start.npos;
+  const bool has_control_codes = start.find_first_of(std::string_view{
+                                     "\0\1\2\3\4\5\6\7\x0e\x0f", 10}) != std::string_view::npos;
   const std::size_t word = start.find_first_not_of(" \t\r\n");
-  return !has_control_codes && word != start.npos && lower_case(start.substr(word, 5)) == "solid";
+  return !has_control_codes && word != std::string_view::npos &&
+         lower_case(start.substr(word, 5)) == "solid";
 }
 
 }  // namespace

@@ -139,17 +139,11 @@ std::vector<WallSprings> WallContacts::springs() const {
   return all;
 }
 
-void WallContacts::restore(std::span<const WallSprings> springs) {
-  candidates_.clear();
-  springs_of_candidate_.clear();
-  store_.begin_writing(1);
+void WallContacts::adopt(std::span<const WallSprings> springs) {
   for (const WallSprings& entry : springs) {
     candidates_.push_back({0, entry.wall, entry.grain});
-    springs_of_candidate_.push_back(store_.append([&](std::vector<NodeSpring>& arena) {
-      arena.insert(arena.end(), entry.springs.begin(), entry.springs.end());
-    }));
+    springs_of_candidate_.push_back(store_.adopt(entry.springs));
   }
-  store_.commit();
 }
 
 }  // namespace reckon

@@ -58,8 +58,8 @@ class WallContacts {
 
   /// Springs of all touching candidates, sorted by (grain, wall).
   [[nodiscard]] std::vector<WallSprings> springs() const;
-  /// Takes over springs from a checkpoint; a rebuild must follow.
-  void restore(std::span<const WallSprings> springs);
+  /// Takes over springs from a checkpoint or another rank; a rebuild must follow.
+  void adopt(std::span<const WallSprings> springs);
 
  private:
   std::vector<Wall> walls_;

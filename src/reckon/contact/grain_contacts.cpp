@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <type_traits>
+#include <utility>
 
 #include "reckon/contact/pair_kernel.hpp"
 #include "reckon/parallel/threads.hpp"
@@ -35,16 +38,7 @@ bool ids_less(GrainId a1, GrainId b1, GrainId a2, GrainId b2) {
 
 }  // namespace
 
-void GrainContacts::rebuild(std::span<const GrainFrame> frames, double skin) {
-  std::vector<GrainId> ids(frames.size());
-  std::vector<Vec3> positions(frames.size());
-  std::vector<double> radii(frames.size());
-  for (std::size_t slot = 0; slot < frames.size(); ++slot) {
-    ids[slot] = frames[slot].id;
-    positions[slot] = frames[slot].position;
-    radii[slot] = frames[slot].shape->bounding_radius;
-  }
-  std::vector<Pair> pairs = find_pairs(ids, positions, radii, skin);
+void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
   std::vector<SpringRange> springs(pairs.size());
   std::vector<double> wake(pairs.size(), awake);
   std::vector<NearPair> near(pairs.size());
@@ -68,7 +62,7 @@ void GrainContacts::rebuild(std::span<const GrainFrame> frames, double skin) {
   // A sleeping pair writes neither.
   new_springs_of_pair_.assign(pairs_.size(), {});
   forces_.assign(pairs_.size(), {});
-  pairs_of_grain_ = index_pairs(pairs_, frames.size());
+  pairs_of_grain_ = index_pairs(pairs_, slot_count);
 }
 
 template <ContactLaw Law, class Find>
@@ -200,20 +194,34 @@ std::vector<PairSprings> GrainContacts::springs() const {
   return all;
 }
 
-void GrainContacts::restore(std::span<const PairSprings> springs) {
-  pairs_.clear();
-  springs_of_pair_.clear();
-  store_.begin_writing(1);
+void GrainContacts::adopt(std::span<const PairSprings> springs) {
+  std::map<std::pair<GrainId, GrainId>, std::size_t> listed;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) listed[{pairs_[p].id_a, pairs_[p].id_b}] = p;
   for (const PairSprings& pair : springs) {
-    pairs_.push_back({pair.id_a, pair.id_b, 0, 0});
-    springs_of_pair_.push_back(store_.append([&](std::vector<NodeSpring>& arena) {
-      arena.insert(arena.end(), pair.springs.begin(), pair.springs.end());
-    }));
+    const auto [entry, added] = listed.try_emplace({pair.id_a, pair.id_b}, pairs_.size());
+    if (added) {
+      pairs_.push_back({pair.id_a, pair.id_b, 0, 0});
+      springs_of_pair_.emplace_back();
+      wake_.push_back(awake);
+      near_.emplace_back();
+    }
+    const std::size_t p = entry->second;
+    if (springs_of_pair_[p].count > 0) continue;  // both ranks of a pair hold the same springs
+    springs_of_pair_[p] = store_.adopt(pair.springs);
+    wake_[p] = awake;
   }
-  wake_.assign(pairs_.size(), awake);
-  near_.clear();
-  near_.resize(pairs_.size());
-  store_.commit();
+  // Back into the order of the ids, which rebuild() relies on.
+  std::vector<std::size_t> order;
+  for (const auto& [ids, p] : listed) order.push_back(p);
+  const auto reorder = [&order](auto& values) {
+    std::remove_reference_t<decltype(values)> sorted;
+    for (const std::size_t p : order) sorted.push_back(std::move(values[p]));
+    values = std::move(sorted);
+  };
+  reorder(pairs_);
+  reorder(springs_of_pair_);
+  reorder(wake_);
+  reorder(near_);
 }
 
 }  // namespace reckon

@@ -53,8 +53,8 @@ class GrainContacts {
   explicit GrainContacts(ContactSettings settings, ContactEngine engine = ContactEngine::near)
       : settings_{std::move(settings)}, engine_{engine} {}
 
-  /// Lists the pairs anew from where the grains are now; touching pairs keep their springs.
-  void rebuild(std::span<const GrainFrame> frames, double skin);
+  /// Lists the pairs anew, sorted by ids; touching pairs keep their springs. `slot_count` grains.
+  void rebuild(std::vector<Pair> pairs, std::size_t slot_count);
 
   /// Finds touching nodes and computes the force of every listed pair.
   void evaluate(std::span<const GrainFrame> frames, double time_step);
@@ -72,9 +72,9 @@ class GrainContacts {
 
   /// Springs of all touching pairs, sorted by (id_a, id_b).
   [[nodiscard]] std::vector<PairSprings> springs() const;
-  /// Takes over springs from a checkpoint; pairs that are not listed are listed at the next
-  /// rebuild, which must follow.
-  void restore(std::span<const PairSprings> springs);
+  /// Takes over springs from a checkpoint or another rank, of pairs that have none here. A rebuild
+  /// must follow, which lists those pairs.
+  void adopt(std::span<const PairSprings> springs);
 
  private:
   /// What one thread works with.

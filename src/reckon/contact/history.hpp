@@ -60,6 +60,14 @@ class SpringStore {
     return {static_cast<std::uint32_t>(thread), static_cast<std::uint32_t>(first),
             static_cast<std::uint32_t>(arena.size() - first)};
   }
+  /// Adds springs from elsewhere to those that are read.
+  [[nodiscard]] SpringRange adopt(std::span<const NodeSpring> springs) {
+    if (read_.empty()) read_.resize(1);
+    auto& arena = read_.front().springs;
+    const std::size_t first = arena.size();
+    arena.insert(arena.end(), springs.begin(), springs.end());
+    return {0, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(springs.size())};
+  }
   /// What was written becomes what is read.
   void commit() { read_.swap(write_); }
 

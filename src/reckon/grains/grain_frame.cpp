@@ -10,15 +10,9 @@ void update_frames(const Grains& grains, std::span<const ShapeView> shapes, doub
                    std::vector<GrainFrame>& frames) {
   frames.resize(grains.size());
   parallel_for(grains.size(), 64, [&](std::size_t slot) {
-    const ShapeView& shape = shapes[grains.shape[slot].get()];
-    const Mat3 rotation = rotation_matrix(grains.orientation[slot]);
-    frames[slot] = {grains.id[slot],
-                    &shape,
-                    grains.position[slot],
-                    rotation,
-                    grains.velocity[slot],
-                    rotation * grains.angular_velocity_body[slot],
-                    density * shape.mass.volume};
+    frames[slot] = frame_of(grains.id[slot], shapes[grains.shape[slot].get()],
+                            grains.position[slot], grains.orientation[slot], grains.velocity[slot],
+                            grains.angular_velocity_body[slot], density);
   });
 }
 

@@ -21,6 +21,20 @@ struct GrainFrame {
   double mass{0};               ///< [kg]
 };
 
+/// The frame of one grain from its state.
+[[nodiscard]] inline GrainFrame frame_of(GrainId id, const ShapeView& shape, const Vec3& position,
+                                         const Quaternion& orientation, const Vec3& velocity,
+                                         const Vec3& angular_velocity_body, double density) {
+  const Mat3 rotation = rotation_matrix(orientation);
+  return {id,
+          &shape,
+          position,
+          rotation,
+          velocity,
+          rotation * angular_velocity_body,
+          density * shape.mass.volume};
+}
+
 /// Fills `frames[slot]` for every grain; `shapes[id]` are the library's shapes.
 void update_frames(const Grains& grains, std::span<const ShapeView> shapes, double density,
                    std::vector<GrainFrame>& frames);

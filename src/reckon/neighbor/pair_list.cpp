@@ -8,16 +8,13 @@
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
-namespace {
 
-bool within_reach(std::span<const Vec3> positions, std::span<const double> radii, double skin,
-                  std::uint32_t a, std::uint32_t b) {
-  const double reach = radii[a] + radii[b] + skin;
-  return squared_norm(positions[a] - positions[b]) < reach * reach;
-}
-
-Pair make_pair(std::span<const GrainId> ids, std::uint32_t s, std::uint32_t t) {
-  return ids[s] < ids[t] ? Pair{ids[s], ids[t], s, t} : Pair{ids[t], ids[s], t, s};
+void add_if_near(std::vector<Pair>& pairs, std::span<const GrainId> ids,
+                 std::span<const Vec3> positions, std::span<const double> radii, double skin,
+                 std::uint32_t s, std::uint32_t t) {
+  const double reach = radii[s] + radii[t] + skin;
+  if (!(squared_norm(positions[s] - positions[t]) < reach * reach)) return;
+  pairs.push_back(ids[s] < ids[t] ? Pair{ids[s], ids[t], s, t} : Pair{ids[t], ids[s], t, s});
 }
 
 void sort_by_ids(std::vector<Pair>& pairs) {
@@ -26,10 +23,8 @@ void sort_by_ids(std::vector<Pair>& pairs) {
   });
 }
 
-}  // namespace
-
 std::vector<Pair> find_pairs(std::span<const GrainId> ids, std::span<const Vec3> positions,
-                             std::span<const double> radii, double skin) {
+                             std::span<const double> radii, double skin, std::size_t owned) {
   if (ids.empty()) return {};
   const double largest = *std::max_element(radii.begin(), radii.end());
   const LinkedBins bins{positions, 2 * largest + skin};
@@ -38,9 +33,8 @@ std::vector<Pair> find_pairs(std::span<const GrainId> ids, std::span<const Vec3>
     const auto grain = static_cast<std::uint32_t>(slot);
     auto& mine = found[static_cast<std::size_t>(thread_index())];
     bins.for_each_half_neighbor(grain, [&](std::uint32_t other) {
-      if (within_reach(positions, radii, skin, grain, other)) {
-        mine.push_back(make_pair(ids, grain, other));
-      }
+      if (grain >= owned && other >= owned) return;
+      add_if_near(mine, ids, positions, radii, skin, grain, other);
     });
   });
   std::vector<Pair> pairs;
@@ -51,11 +45,12 @@ std::vector<Pair> find_pairs(std::span<const GrainId> ids, std::span<const Vec3>
 
 std::vector<Pair> find_pairs_brute_force(std::span<const GrainId> ids,
                                          std::span<const Vec3> positions,
-                                         std::span<const double> radii, double skin) {
+                                         std::span<const double> radii, double skin,
+                                         std::size_t owned) {
   std::vector<Pair> pairs;
-  for (std::uint32_t s = 0; s < ids.size(); ++s) {
+  for (std::uint32_t s = 0; s < owned; ++s) {
     for (std::uint32_t t = s + 1; t < ids.size(); ++t) {
-      if (within_reach(positions, radii, skin, s, t)) pairs.push_back(make_pair(ids, s, t));
+      add_if_near(pairs, ids, positions, radii, skin, s, t);
     }
   }
   sort_by_ids(pairs);

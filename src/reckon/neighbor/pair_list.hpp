@@ -21,14 +21,24 @@ struct Pair {
 
 /// All pairs whose bounding spheres come within `skin` of each other, sorted by (id_a, id_b).
 /// `ids`, `positions` and `radii` are per slot; found with LinkedBins in the time of one pass.
+/// Slots from `owned` on are ghosts: pairs of two ghosts are left out.
 [[nodiscard]] std::vector<Pair> find_pairs(std::span<const GrainId> ids,
                                            std::span<const Vec3> positions,
-                                           std::span<const double> radii, double skin);
+                                           std::span<const double> radii, double skin,
+                                           std::size_t owned);
 
 /// The same by testing every grain against every other: the oracle.
 [[nodiscard]] std::vector<Pair> find_pairs_brute_force(std::span<const GrainId> ids,
                                                        std::span<const Vec3> positions,
-                                                       std::span<const double> radii, double skin);
+                                                       std::span<const double> radii, double skin,
+                                                       std::size_t owned);
+
+/// Appends the pair of slots `s` and `t` when their spheres come within `skin` of each other.
+void add_if_near(std::vector<Pair>& pairs, std::span<const GrainId> ids,
+                 std::span<const Vec3> positions, std::span<const double> radii, double skin,
+                 std::uint32_t s, std::uint32_t t);
+/// The order of every list of pairs: by id_a, then id_b.
+void sort_by_ids(std::vector<Pair>& pairs);
 
 /// For every grain, the pairs that it is part of, in the order of the partners' ids: the order in
 /// which its forces are summed.

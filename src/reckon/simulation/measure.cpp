@@ -26,6 +26,32 @@ struct Sums {
   ExactSum friction, dashpot, damping, body_work, wall_work;
   ExactSum net_force, contact_force;
   ExactVec3 momentum;
+  std::vector<ExactVec3> on_walls;
+  std::int64_t grains{0}, contacts{0}, wall_contacts{0}, touching_nodes{0};
+
+  /// Adds up what all ranks hold, digit by digit.
+  void reduce(const Communicator& ranks) {
+    std::vector<ExactSum*> exact{&translation,   &rotation,   &gravity,    &elastic,   &friction,
+                                 &dashpot,       &damping,    &body_work,  &wall_work, &net_force,
+                                 &contact_force, &momentum.x, &momentum.y, &momentum.z};
+    for (ExactVec3& wall : on_walls) exact.insert(exact.end(), {&wall.x, &wall.y, &wall.z});
+    std::vector<std::int64_t> digits{grains, contacts, wall_contacts, touching_nodes};
+    const std::size_t counts = digits.size();
+    for (ExactSum* sum : exact) {
+      sum->carry();
+      digits.insert(digits.end(), sum->digits().begin(), sum->digits().end());
+    }
+    ranks.sum(digits);
+    grains = digits[0];
+    contacts = digits[1];
+    wall_contacts = digits[2];
+    touching_nodes = digits[3];
+    auto next = digits.begin() + static_cast<std::ptrdiff_t>(counts);
+    for (ExactSum* sum : exact) {
+      std::copy_n(next, ExactSum::digit_count, sum->digits().begin());
+      next += ExactSum::digit_count;
+    }
+  }
 };
 
 void add_ledger(Sums& sums, const EnergyLedger& ledger) {
@@ -42,20 +68,12 @@ EnergyBudget budget(const Sums& sums) {
           sums.damping.value(),     sums.body_work.value(), sums.wall_work.value()};
 }
 
-/// Where the line from a grain's centre meets the wall at a right angle.
-Vec3 foot_on_wall(const Wall& wall, const WallPose& pose, const Vec3& center) {
-  return std::visit(
-      [&](const auto& surface) {
-        const Vec3 p = center - pose.displacement;
-        return center - surface.distance(p) * surface.gradient(p);
-      },
-      wall.surface);
-}
-
 }  // namespace
 
 Measurement Simulation::measure() {
-  refresh_contacts();
+  bring_up_to_date();
+  grain_contacts_.evaluate(frames_, setup_.time_step);
+  wall_contacts_.evaluate(owned_frames(), setup_.time_step);
   std::vector<EnergyLedger> ledgers = grains_.ledger;  // with the losses up to this very step
   sum_loads(ledgers);
 
@@ -82,63 +100,49 @@ Measurement Simulation::measure() {
     add_ledger(sums, ledgers[slot]);
     result.largest_speed = std::max(result.largest_speed, norm(velocity));
   }
-  for (const PairForce& pair : grain_contacts_.forces()) {
-    if (pair.touching == 0) continue;
-    ++result.contacts;
-    result.touching_nodes += pair.touching;
+  for (std::size_t p = 0; p < grain_contacts_.pairs().size(); ++p) {
+    const PairForce& pair = grain_contacts_.forces()[p];
+    // A pair that two ranks share is counted by the owner of its first grain.
+    if (pair.touching == 0 || grain_contacts_.pairs()[p].slot_a >= grains_.size()) continue;
+    ++sums.contacts;
+    sums.touching_nodes += pair.touching;
     sums.elastic.add(pair.elastic);
     sums.contact_force.add(norm(pair.force_on_a));
     result.deepest_overlap = std::max(result.deepest_overlap, pair.deepest);
   }
-  std::vector<ExactVec3> on_walls(setup_.walls.size());
+  sums.on_walls.resize(setup_.walls.size());
   for (std::size_t c = 0; c < wall_contacts_.forces().size(); ++c) {
     const WallForce& wall = wall_contacts_.forces()[c];
     if (wall.touching == 0) continue;
-    ++result.wall_contacts;
-    result.touching_nodes += wall.touching;
+    ++sums.wall_contacts;
+    sums.touching_nodes += wall.touching;
     sums.elastic.add(wall.elastic);
     sums.contact_force.add(norm(wall.force));
-    on_walls[wall_contacts_.candidates()[c].wall.get()].add(-wall.force);
+    sums.on_walls[wall_contacts_.candidates()[c].wall.get()].add(-wall.force);
     result.deepest_overlap = std::max(result.deepest_overlap, wall.deepest);
   }
+  sums.grains = static_cast<std::int64_t>(grains_.size());
+  const Communicator& ranks = distribution_.ranks();
+  sums.reduce(ranks);
+  result.deepest_overlap = ranks.max(result.deepest_overlap);
+  result.largest_speed = ranks.max(result.largest_speed);
+
+  result.contacts = static_cast<std::uint64_t>(sums.contacts);
+  result.wall_contacts = static_cast<std::uint64_t>(sums.wall_contacts);
+  result.touching_nodes = static_cast<std::uint64_t>(sums.touching_nodes);
   result.energy = budget(sums);
   result.momentum = sums.momentum.value();
-  for (const ExactVec3& force : on_walls) result.wall_force.push_back(force.value());
-  const auto touching_pairs = static_cast<double>(result.contacts + result.wall_contacts);
-  const auto grain_count = static_cast<double>(grains_.size());
+  for (const ExactVec3& force : sums.on_walls) result.wall_force.push_back(force.value());
+  const auto touching_pairs = static_cast<double>(sums.contacts + sums.wall_contacts);
+  const auto grain_count = static_cast<double>(sums.grains);
   if (grain_count > 0) {
-    result.coordination =
-        static_cast<double>(2 * result.contacts + result.wall_contacts) / grain_count;
+    result.coordination = static_cast<double>(2 * sums.contacts + sums.wall_contacts) / grain_count;
   }
   if (touching_pairs > 0 && sums.contact_force.value() > 0) {
     result.unbalanced_ratio =
         (sums.net_force.value() / grain_count) / (sums.contact_force.value() / touching_pairs);
   }
   return result;
-}
-
-std::vector<ContactRecord> Simulation::contacts() {
-  refresh_contacts();
-  std::vector<ContactRecord> records;
-  for (std::size_t p = 0; p < grain_contacts_.pairs().size(); ++p) {
-    const PairForce& force = grain_contacts_.forces()[p];
-    if (force.touching == 0) continue;
-    const Pair& pair = grain_contacts_.pairs()[p];
-    records.push_back({pair.id_a, false, pair.id_b.get(), grains_.position[pair.slot_a],
-                       grains_.position[pair.slot_b], force.force_on_a, force.deepest,
-                       force.touching});
-  }
-  for (std::size_t c = 0; c < wall_contacts_.candidates().size(); ++c) {
-    const WallForce& force = wall_contacts_.forces()[c];
-    if (force.touching == 0) continue;
-    const auto& candidate = wall_contacts_.candidates()[c];
-    const Vec3& center = grains_.position[candidate.slot];
-    records.push_back({candidate.grain, true, candidate.wall.get(), center,
-                       foot_on_wall(setup_.walls[candidate.wall.get()],
-                                    wall_contacts_.poses()[candidate.wall.get()], center),
-                       force.force, force.deepest, force.touching});
-  }
-  return records;
 }
 
 }  // namespace reckon

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reckon/core/error.hpp"
 #include "reckon/core/stopwatch.hpp"
@@ -13,64 +14,137 @@
 
 namespace reckon {
 
-Simulation::Simulation(SimulationSetup setup, const SimulationState& state)
+namespace {
+
+std::size_t total_count(const Communicator& ranks, std::size_t own) {
+  auto count = static_cast<std::int64_t>(own);
+  ranks.sum({&count, 1});
+  return static_cast<std::size_t>(count);
+}
+
+std::uint64_t root_step(const Communicator& ranks, std::uint64_t step) {
+  auto value = static_cast<std::int64_t>(ranks.is_root() ? step : 0);
+  ranks.sum({&value, 1});
+  return static_cast<std::uint64_t>(value);
+}
+
+}  // namespace
+
+Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
+                       const Communicator& ranks)
     : setup_{std::move(setup)},
       shapes_{setup_.shapes->begin(), setup_.shapes->end()},
+      distribution_{ranks, setup_.decomposition, total_count(ranks, state.grains.size())},
       grain_contacts_{setup_.contact, setup_.engine},
       wall_contacts_{setup_.walls},
-      step_{state.step} {
+      step_{root_step(ranks, state.step)} {
+  for (const ShapeView& shape : shapes_) {
+    largest_radius_ = std::max(largest_radius_, shape.bounding_radius);
+  }
   for (const GrainState& grain : state.grains) grains_.push_back(grain);
-  grain_contacts_.restore(state.pair_springs);
-  wall_contacts_.restore(state.wall_springs);
+  grain_contacts_.adopt(state.pair_springs);
+  wall_contacts_.adopt(state.wall_springs);
 }
 
 void Simulation::step() {
+  bring_up_to_date();
   Stopwatch watch;
-  place_frames();
-  phase_times_.frames += watch.lap();
-  if (lists_are_stale()) rebuild_lists();
-  phase_times_.lists += watch.lap();
   grain_contacts_.evaluate(frames_, setup_.time_step);
   phase_times_.grain_contacts += watch.lap();
-  wall_contacts_.evaluate(frames_, setup_.time_step);
+  wall_contacts_.evaluate(owned_frames(), setup_.time_step);
   phase_times_.wall_contacts += watch.lap();
   sum_loads(grains_.ledger);
   phase_times_.loads += watch.lap();
   advance_grains();
   commit_springs();
   ++step_;
-  require_finite_motion();
   phase_times_.motion += watch.lap();
+  agree_on_what_comes();
+  phase_times_.agreement += watch.lap();
 }
 
-void Simulation::place_frames() {
-  update_frames(grains_, shapes_, setup_.density, frames_);
+/// Frames, ghosts and, when someone's motion used up the skin, lists: all for where grains are now.
+void Simulation::bring_up_to_date() {
+  Stopwatch watch;
   wall_contacts_.move_walls(step_, setup_.time_step);
+  if (lists_are_stale_) {
+    distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, grain_costs(),
+                               2 * largest_radius_ + setup_.skin);
+    phase_times_.migration += watch.lap();
+    distribution_.list_ghosts(grains_);
+    phase_times_.border += watch.lap();
+    update_frames(grains_, shapes_, setup_.density, frames_);
+    add_ghost_frames();
+    phase_times_.frames += watch.lap();
+    rebuild_lists();
+    phase_times_.lists += watch.lap();
+    return;
+  }
+  distribution_.start_update(grains_);
+  update_frames(grains_, shapes_, setup_.density, frames_);
+  phase_times_.frames += watch.lap();
+  distribution_.finish_update();
+  phase_times_.border += watch.lap();
+  add_ghost_frames();
+  phase_times_.frames += watch.lap();
 }
 
-bool Simulation::lists_are_stale() const {
-  if (!lists_exist_) return true;
-  double moved_squared = parallel_max(grains_.size(), 0, [&](std::size_t slot) {
-    return squared_norm(grains_.position[slot] - listed_positions_[slot]);
-  });
-  for (std::size_t w = 0; w < listed_wall_displacement_.size(); ++w) {
-    moved_squared = std::max(moved_squared, squared_norm(wall_contacts_.poses()[w].displacement -
-                                                         listed_wall_displacement_[w]));
+void Simulation::add_ghost_frames() {
+  for (const BorderGrain& ghost : distribution_.ghosts()) {
+    const ShapeView& shape = shapes_[ghost.shape.get()];
+    frames_.push_back(frame_of(ghost.id, shape, ghost.state.position, ghost.state.orientation,
+                               ghost.state.velocity, ghost.state.angular_velocity_body,
+                               setup_.density));
   }
-  const double budget = 0.5 * setup_.skin;
-  return !(moved_squared < budget * budget);
 }
 
 void Simulation::rebuild_lists() {
-  grain_contacts_.rebuild(frames_, setup_.skin);
-  wall_contacts_.rebuild(frames_, setup_.skin);
+  grain_contacts_.rebuild(distribution_.find_pairs(frames_, setup_.skin, grains_.size()),
+                          frames_.size());
+  wall_contacts_.rebuild(owned_frames(), setup_.skin);
   listed_positions_ = grains_.position;
   listed_wall_displacement_.clear();
   for (const WallPose& pose : wall_contacts_.poses()) {
     listed_wall_displacement_.push_back(pose.displacement);
   }
-  lists_exist_ = true;
+  lists_are_stale_ = false;
   ++list_rebuilds_;
+}
+
+/// What a grain costs its rank: itself, and its share of the pairs it is in.
+std::vector<double> Simulation::grain_costs() const {
+  std::vector<double> costs(grains_.size(), 1.0);
+  for (const Pair& pair : grain_contacts_.pairs()) {
+    if (pair.slot_a < costs.size()) costs[pair.slot_a] += 0.5;
+    if (pair.slot_b < costs.size()) costs[pair.slot_b] += 0.5;
+  }
+  return costs;
+}
+
+double Simulation::farthest_motion_since_listing() const {
+  double moved_squared = parallel_max(grains_.size(), 0, [&](std::size_t slot) {
+    return squared_norm(grains_.position[slot] - listed_positions_[slot]);
+  });
+  for (std::size_t w = 0; w < listed_wall_displacement_.size(); ++w) {
+    const WallPose pose = pose_at(setup_.walls[w], step_, setup_.time_step);
+    moved_squared =
+        std::max(moved_squared, squared_norm(pose.displacement - listed_wall_displacement_[w]));
+  }
+  return std::sqrt(moved_squared);
+}
+
+/// One small reduction per step: do lists serve one more step, and is everybody still well?
+void Simulation::agree_on_what_comes() {
+  constexpr double fine = 0;
+  constexpr double stale = 1;
+  constexpr double failed = 2;
+  double news = farthest_motion_since_listing() < 0.5 * setup_.skin ? fine : stale;
+  news = std::max(news, parallel_max(grains_.size(), fine, [&](std::size_t slot) {
+                    return motion_is_finite(slot) ? fine : failed;
+                  }));
+  news = distribution_.ranks().max(news);
+  lists_are_stale_ = news >= stale;
+  if (news >= failed) fail_on_motion();
 }
 
 void Simulation::sum_loads(std::span<EnergyLedger> ledgers) {
@@ -124,41 +198,24 @@ void Simulation::commit_springs() {
   wall_contacts_.commit();
 }
 
-void Simulation::require_finite_motion() const {
-  const auto finite = [&](std::size_t slot) {
-    return is_finite(grains_.position[slot]) && is_finite(grains_.velocity[slot]) &&
-           is_finite(grains_.angular_velocity_body[slot]);
-  };
-  const double bad = parallel_max(grains_.size(), -1, [&](std::size_t slot) {
-    return finite(slot) ? -1.0 : static_cast<double>(slot);
-  });
-  if (bad < 0) return;
-  const auto slot = static_cast<std::size_t>(bad);
-  throw Error{{.place = fmt::format("grain {}, step {}", grains_.id[slot].get(), step_),
+bool Simulation::motion_is_finite(std::size_t slot) const {
+  return is_finite(grains_.position[slot]) && is_finite(grains_.velocity[slot]) &&
+         is_finite(grains_.angular_velocity_body[slot]);
+}
+
+void Simulation::fail_on_motion() const {
+  double first_bad = -std::numeric_limits<double>::infinity();  // minus the lowest id
+  for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
+    if (!motion_is_finite(slot)) {
+      first_bad = std::max(first_bad, -static_cast<double>(grains_.id[slot].get()));
+    }
+  }
+  first_bad = distribution_.ranks().max(first_bad);
+  throw Error{{.place = fmt::format("grain {:.0f}, step {}", std::abs(first_bad), step_),
                .problem = "its motion is no longer a number",
                .reason = "forces grew without bound, most often because the time step is too large "
                          "for the stiffness or grains overlapped deeply at the start",
                .fix = "Lower time.step_fraction, or look at the last files for deep overlaps."}};
-}
-
-void Simulation::refresh_contacts() {
-  place_frames();
-  if (lists_are_stale()) rebuild_lists();
-  grain_contacts_.evaluate(frames_, setup_.time_step);
-  wall_contacts_.evaluate(frames_, setup_.time_step);
-}
-
-SimulationState Simulation::state() const {
-  SimulationState state;
-  state.step = step_;
-  for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
-    state.grains.push_back(grains_.state(slot));
-  }
-  std::sort(state.grains.begin(), state.grains.end(),
-            [](const GrainState& a, const GrainState& b) { return a.id < b.id; });
-  state.pair_springs = grain_contacts_.springs();
-  state.wall_springs = wall_contacts_.springs();
-  return state;
 }
 
 }  // namespace reckon

@@ -12,6 +12,7 @@
 #include "reckon/grains/grain_frame.hpp"
 #include "reckon/motion/body_force.hpp"
 #include "reckon/motion/integrator.hpp"
+#include "reckon/simulation/distribution.hpp"
 #include "reckon/simulation/measurement.hpp"
 #include "reckon/simulation/phase_times.hpp"
 
@@ -27,7 +28,8 @@ struct SimulationSetup {
   double damping{0};    ///< global damping xi [1/s]
   double time_step{0};  ///< [s]
   double skin{0};       ///< of the pair lists; changes the speed, never the answer [m]
-  ContactEngine engine{ContactEngine::near};  ///< likewise
+  ContactEngine engine{ContactEngine::near};                     ///< likewise
+  DecompositionKind decomposition{DecompositionKind::balanced};  ///< likewise
 };
 
 /// What changes: all that a checkpoint must hold to go on to the same bits.
@@ -53,20 +55,26 @@ struct ContactRecord {
 /// The level-set discrete element method. `step()` is the paper's algorithm on one screen.
 class Simulation {
  public:
-  Simulation(SimulationSetup setup, const SimulationState& state);
+  /// With several ranks all functions that say so are collective; `state` counts on the root only,
+  /// the other ranks pass an empty one.
+  Simulation(SimulationSetup setup, const SimulationState& state, const Communicator& ranks = {});
 
-  /// Moves everything on by one time step. Throws Error, naming the grain, when a grain's motion is
-  /// no longer a number.
+  /// Moves everything on by one time step. Collective. Throws Error on all ranks, naming the grain,
+  /// when a grain's motion is no longer a number.
   void step();
 
-  /// What holds at the current step. Changes nothing.
+  /// What holds at the current step, on all ranks. Collective. Changes nothing.
   [[nodiscard]] Measurement measure();
-  /// The contacts at the current step, pairs sorted by ids, then walls. Changes nothing.
+  /// The contacts at the current step, pairs sorted by ids, then walls. Collective; whole on the
+  /// root, empty elsewhere. Changes nothing.
   [[nodiscard]] std::vector<ContactRecord> contacts();
+  /// Everything needed to go on. Collective; whole on the root, empty elsewhere.
   [[nodiscard]] SimulationState state() const;
 
   [[nodiscard]] const SimulationSetup& setup() const { return setup_; }
+  /// The grains that this rank owns.
   [[nodiscard]] const Grains& grains() const { return grains_; }
+  [[nodiscard]] const Distribution& distribution() const { return distribution_; }
   [[nodiscard]] std::span<const ShapeView> shapes() const { return shapes_; }
   [[nodiscard]] std::uint64_t step_number() const { return step_; }
   [[nodiscard]] double time() const { return static_cast<double>(step_) * setup_.time_step; }
@@ -77,22 +85,30 @@ class Simulation {
   [[nodiscard]] double mass(std::size_t slot) const { return inertia(slot).mass; }
 
  private:
-  void place_frames();
-  [[nodiscard]] bool lists_are_stale() const;
+  void bring_up_to_date();
+  void add_ghost_frames();
   void rebuild_lists();
+  [[nodiscard]] std::span<const GrainFrame> owned_frames() const {
+    return std::span{frames_}.first(grains_.size());
+  }
+  [[nodiscard]] std::vector<double> grain_costs() const;
   void sum_loads(std::span<EnergyLedger> ledgers);
   void advance_grains();
   void commit_springs();
+  void agree_on_what_comes();
 
-  void refresh_contacts();
+  [[nodiscard]] double farthest_motion_since_listing() const;
+  [[nodiscard]] bool motion_is_finite(std::size_t slot) const;
+  [[noreturn]] void fail_on_motion() const;
   [[nodiscard]] Inertia inertia(std::size_t slot) const;
   [[nodiscard]] Load total_load(std::size_t slot) const;
-  void require_finite_motion() const;
 
   SimulationSetup setup_;
   std::vector<ShapeView> shapes_;  // views into setup_.shapes
+  Distribution distribution_;
+  double largest_radius_{0};  // of all shapes [m]
   Grains grains_;
-  std::vector<GrainFrame> frames_;
+  std::vector<GrainFrame> frames_;  // owned grains, then ghosts
   std::vector<Load> contact_loads_;
   GrainContacts grain_contacts_;
   WallContacts wall_contacts_;
@@ -100,7 +116,7 @@ class Simulation {
 
   std::vector<Vec3> listed_positions_;  // where grains were when the lists were made
   std::vector<Vec3> listed_wall_displacement_;
-  bool lists_exist_{false};
+  bool lists_are_stale_{true};
   std::uint64_t list_rebuilds_{0};
   PhaseTimes phase_times_;
 };

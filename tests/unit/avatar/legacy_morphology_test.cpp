@@ -4,18 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <numbers>
-#include <tuple>
 
+#include "equal_morphologies.hpp"
 #include "expect_error.hpp"
-#include "grids.hpp"
-#include "reckon/avatar/grid_mass.hpp"
-#include "reckon/avatar/library_file.hpp"
-#include "reckon/core/file.hpp"
 #include "reckon/core/random.hpp"
 
 namespace reckon {
@@ -48,28 +41,11 @@ LegacyMorphology ball() {
   return m;
 }
 
-auto sorted(std::vector<Vec3> points) {
-  std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-  });
-  return points;
-}
-
-void expect_equal(const LegacyMorphology& a, const LegacyMorphology& b) {
-  EXPECT_EQ(a.mass, b.mass);
-  EXPECT_EQ(a.moments, b.moments);
-  EXPECT_EQ(a.center_of_mass, b.center_of_mass);
-  EXPECT_EQ(sorted(a.nodes), sorted(b.nodes));
-  EXPECT_EQ(a.bounding_radius, b.bounding_radius);
-  EXPECT_EQ(a.dims, b.dims);
-  EXPECT_EQ(a.values, b.values);
-}
-
 TEST(LegacyMorphology, TextComesBackExactly) {
   const LegacyMorphology original = ball();
   const std::string text = format_legacy_morphology(original);
   const LegacyMorphology parsed = parse_legacy_morphology(text, "ball");
-  expect_equal(parsed, original);
+  test::expect_equal(parsed, original);
   EXPECT_EQ(parsed.nodes, original.nodes);
   EXPECT_EQ(format_legacy_morphology(parsed), text);
 }
@@ -81,7 +57,7 @@ TEST(LegacyMorphology, ShapeHasTheFilesNumbersAndGivesThemBack) {
   EXPECT_EQ(shape.mass.volume, original.mass);
   EXPECT_EQ(shape.mass.inertia, original.moments);
   EXPECT_EQ(shape.bounding_radius, 4);
-  expect_equal(to_legacy(shape), original);
+  test::expect_equal(to_legacy(shape), original);
   double area = 0;
   for (const double a : shape.nodes.area) {
     area += a;
@@ -101,7 +77,7 @@ TEST(LegacyMorphology, AVoxelLengthScalesEverything) {
   EXPECT_EQ(half.level_set.spacing, 0.5);
   EXPECT_EQ(half.bounding_radius, 2);
   EXPECT_NEAR(half.nodes.area[10] / one.nodes.area[10], 0.25, 1e-12);
-  expect_equal(to_legacy(half), ball());
+  test::expect_equal(to_legacy(half), ball());
   test::expect_error([] { (void)to_shape(ball(), 0, "ball", LegacyRadius::as_in_file); },
                      {"voxel", "positive"});
 }
@@ -179,53 +155,6 @@ TEST(LegacyPlacement, PositionsAndRotations) {
   test::expect_error([] { (void)parse_legacy_positions("1 2 3\n1 2\n", "p.dat"); }, {"p.dat", "2"});
   test::expect_error([] { (void)parse_legacy_positions("1 2 3 4\n", "p"); }, {"three numbers"});
   test::expect_error([] { (void)parse_legacy_rotations("1 1 0 0\n", "r"); }, {"unit quaternion"});
-}
-
-class LegacyData : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const std::filesystem::path data =
-        std::filesystem::path{RECKON_SOURCE_DIR} / "../shared/data/legacy592";
-    if (!std::filesystem::exists(data / "morphologies.tar.xz")) {
-      GTEST_SKIP() << "the legacy592 data set is not beside the project";
-    }
-    data_ = data;
-    folder_ = std::filesystem::path{::testing::TempDir()} / "legacy592";
-    std::filesystem::create_directories(folder_);
-    const std::string command =
-        "tar -xf '" + (data / "morphologies.tar.xz").string() + "' -C '" + folder_.string() + "'";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-  }
-  void TearDown() override {
-    if (!folder_.empty()) std::filesystem::remove_all(folder_);
-  }
-
-  std::filesystem::path data_;
-  std::filesystem::path folder_;
-};
-
-TEST_F(LegacyData, AllMorphologiesRoundTripAndAgreeWithTheirGrids) {
-  const ShapeLibrary library = load_library(folder_);
-  ASSERT_EQ(library.size(), 74U);
-  EXPECT_EQ(library[0].name, "morph_1");
-  EXPECT_EQ(library[9].name, "morph_10");
-  for (std::size_t s = 0; s < library.size(); ++s) {
-    const std::string name = "morph_" + std::to_string(s + 1) + ".dat";
-    const LegacyMorphology read = parse_legacy_morphology(read_file(folder_ / name), name);
-    expect_equal(to_legacy(library[s]), read);
-    expect_equal(parse_legacy_morphology(format_legacy_morphology(read), name), read);
-    const SolidProperties counted = grid_properties(library[s].level_set);
-    EXPECT_NEAR(counted.volume / library[s].mass.volume, 1, 0.005) << name;
-    EXPECT_NEAR(norm(counted.centroid), 0, 0.03) << name;
-    double area = 0;
-    for (const double a : library[s].nodes.area) area += a;
-    EXPECT_NEAR(area / counted.surface_area, 1, 0.03) << name;
-  }
-}
-
-TEST_F(LegacyData, PlacementsHaveOneLinePerGrain) {
-  EXPECT_EQ(parse_legacy_positions(read_file(data_ / "positions_s592.dat"), "p").size(), 592U);
-  EXPECT_EQ(parse_legacy_rotations(read_file(data_ / "rotations_s592.dat"), "r").size(), 592U);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "reckon/parallel/threads.hpp"
+#include "support/list_pairs.hpp"
 #include "support/test_shapes.hpp"
 
 namespace reckon {
@@ -36,7 +37,7 @@ class TwoGrains : public ::testing::Test {
   }
 
   PairForce force(GrainContacts& contacts, const std::vector<GrainFrame>& at) const {
-    contacts.rebuild(at, 0.5);
+    testing::list_pairs(contacts, at, 0.5);
     contacts.evaluate(at, 1e-5);
     return contacts.forces()[0];
   }
@@ -117,7 +118,7 @@ TEST_F(TwoGrains, RestoredSpringsGoOnToTheSameBits) {
   force(original, frames());
   original.commit();
   GrainContacts resumed{{AreaLaw{1e6, 1e6, 0}, 0.5, MasterRule::both}};
-  resumed.restore(original.springs());
+  resumed.adopt(original.springs());
   const PairForce expected = force(original, frames({0.001, 0, 0}));
   const PairForce actual = force(resumed, frames({0.001, 0, 0}));
   EXPECT_EQ(actual.force_on_a, expected.force_on_a);
@@ -141,7 +142,7 @@ TEST(MasterRule, SmallerGrainLendsItsNodes) {
   std::vector<GrainFrame> frames;
   update_frames(grains, views, 1, frames);
   GrainContacts contacts{{AreaLaw{1e6, 1e6, 0}, 0.5, MasterRule::smaller}};
-  contacts.rebuild(frames, 0.1);
+  testing::list_pairs(contacts, frames, 0.1);
   contacts.evaluate(frames, 1e-5);
   contacts.commit();
   const auto springs = contacts.springs();
@@ -174,7 +175,7 @@ TEST(GrainContacts, ThreadsDoNotChangeTheLoads) {
   for (const int threads : {1, 2, 4}) {
     set_thread_count(threads);
     GrainContacts contacts{{AreaLaw{1e6, 1e6, 0.2}, 0.5, MasterRule::lower_id}};
-    contacts.rebuild(frames, 0.1);
+    testing::list_pairs(contacts, frames, 0.1);
     std::vector<EnergyLedger> ledgers(grains.size());
     for (int step = 0; step < 3; ++step) {
       contacts.evaluate(frames, 1e-4);

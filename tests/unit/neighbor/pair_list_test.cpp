@@ -45,9 +45,11 @@ void expect_same(const std::vector<Pair>& found, const std::vector<Pair>& expect
 TEST(PairList, LinkedBinsMatchBruteForce) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Cloud cloud = random_cloud(seed, 300, 2.0 + static_cast<double>(seed));
-    const auto expected = find_pairs_brute_force(cloud.ids, cloud.positions, cloud.radii, 0.2);
+    const auto expected =
+        find_pairs_brute_force(cloud.ids, cloud.positions, cloud.radii, 0.2, cloud.ids.size());
     ASSERT_FALSE(expected.empty());
-    expect_same(find_pairs(cloud.ids, cloud.positions, cloud.radii, 0.2), expected);
+    expect_same(find_pairs(cloud.ids, cloud.positions, cloud.radii, 0.2, cloud.ids.size()),
+                expected);
   }
 }
 
@@ -56,29 +58,30 @@ TEST(PairList, GrainsFarAwayNeitherCostNorConfuse) {
   cloud.positions[17] = {1e12, -3e15, 2};
   cloud.positions[18] = {1e12, -3e15, 2.5};
   cloud.positions[19] = {1e300, 0, 0};
-  expect_same(find_pairs(cloud.ids, cloud.positions, cloud.radii, 0.2),
-              find_pairs_brute_force(cloud.ids, cloud.positions, cloud.radii, 0.2));
+  expect_same(
+      find_pairs(cloud.ids, cloud.positions, cloud.radii, 0.2, cloud.ids.size()),
+      find_pairs_brute_force(cloud.ids, cloud.positions, cloud.radii, 0.2, cloud.ids.size()));
 }
 
 TEST(PairList, ThreadsDoNotChangeTheList) {
   const Cloud cloud = random_cloud(5, 2000, 10);
   const int before = thread_count();
   set_thread_count(1);
-  const auto one = find_pairs(cloud.ids, cloud.positions, cloud.radii, 0.1);
+  const auto one = find_pairs(cloud.ids, cloud.positions, cloud.radii, 0.1, cloud.ids.size());
   set_thread_count(4);
-  expect_same(find_pairs(cloud.ids, cloud.positions, cloud.radii, 0.1), one);
+  expect_same(find_pairs(cloud.ids, cloud.positions, cloud.radii, 0.1, cloud.ids.size()), one);
   set_thread_count(before);
 }
 
 TEST(PairList, EmptyAndSingle) {
-  EXPECT_TRUE(find_pairs({}, {}, {}, 0.1).empty());
+  EXPECT_TRUE(find_pairs({}, {}, {}, 0.1, 0).empty());
   const Cloud one = random_cloud(1, 1, 1);
-  EXPECT_TRUE(find_pairs(one.ids, one.positions, one.radii, 0.1).empty());
+  EXPECT_TRUE(find_pairs(one.ids, one.positions, one.radii, 0.1, 1).empty());
 }
 
 TEST(PairsOfGrain, ListsPartnersByIdAndEachPairTwice) {
   const Cloud cloud = random_cloud(9, 400, 5);
-  const auto pairs = find_pairs(cloud.ids, cloud.positions, cloud.radii, 0.3);
+  const auto pairs = find_pairs(cloud.ids, cloud.positions, cloud.radii, 0.3, cloud.ids.size());
   const PairsOfGrain index = index_pairs(pairs, cloud.ids.size());
   std::size_t entries = 0;
   for (std::size_t slot = 0; slot < cloud.ids.size(); ++slot) {

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "reckon/domain/packing.hpp"
+#include "reckon/simulation/simulation.hpp"
+
+namespace reckon {
+namespace {
+
+/// Everybody's values on the root, in any order; nothing elsewhere.
+template <class Value>
+std::vector<Value> gather(const Communicator& ranks, const std::vector<Value>& own) {
+  Bytes bytes;
+  pack<Value>(bytes, own);
+  std::vector<Value> all;
+  for (const Bytes& part : ranks.gather(bytes)) {
+    const auto values = Unpacker{part}.take_all<Value>();
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  return all;
+}
+
+/// The same for springs: `Entry` is PairSprings or WallSprings, `Key` two ids and a count.
+template <class Entry, class Key>
+std::vector<Entry> gather_springs(const Communicator& ranks, const std::vector<Entry>& own,
+                                  Key (*key_of)(const Entry&), Entry (*entry_of)(const Key&)) {
+  std::vector<Key> keys;
+  std::vector<NodeSpring> springs;
+  for (const Entry& entry : own) {
+    keys.push_back(key_of(entry));
+    springs.insert(springs.end(), entry.springs.begin(), entry.springs.end());
+  }
+  const std::vector<Key> all_keys = gather(ranks, keys);
+  const std::vector<NodeSpring> all_springs = gather(ranks, springs);
+  std::vector<Entry> all;
+  auto next = all_springs.begin();
+  for (const Key& key : all_keys) {
+    Entry entry = entry_of(key);
+    const auto end = next + static_cast<std::ptrdiff_t>(key.count);
+    entry.springs.assign(next, end);
+    next = end;
+    all.push_back(std::move(entry));
+  }
+  return all;
+}
+
+struct PairKey {
+  GrainId a, b;
+  std::uint64_t count;
+};
+struct WallKey {
+  GrainId grain;
+  WallId wall;
+  std::uint64_t count;
+};
+
+/// Where the line from a grain's centre meets the wall at a right angle.
+Vec3 foot_on_wall(const Wall& wall, const WallPose& pose, const Vec3& center) {
+  return std::visit(
+      [&](const auto& surface) {
+        const Vec3 p = center - pose.displacement;
+        return center - surface.distance(p) * surface.gradient(p);
+      },
+      wall.surface);
+}
+
+}  // namespace
+
+SimulationState Simulation::state() const {
+  const Communicator& ranks = distribution_.ranks();
+  std::vector<GrainState> own;
+  for (std::size_t slot = 0; slot < grains_.size(); ++slot) own.push_back(grains_.state(slot));
+  // A pair that two ranks share is told by the owner of its first grain.
+  std::vector<PairSprings> own_springs;
+  std::vector<GrainId> own_ids = grains_.id;
+  std::sort(own_ids.begin(), own_ids.end());
+  for (PairSprings& pair : grain_contacts_.springs()) {
+    if (std::binary_search(own_ids.begin(), own_ids.end(), pair.id_a)) {
+      own_springs.push_back(std::move(pair));
+    }
+  }
+  SimulationState state;
+  state.step = step_;
+  state.grains = gather(ranks, own);
+  state.pair_springs = gather_springs<PairSprings, PairKey>(
+      ranks, own_springs,
+      [](const PairSprings& p) {
+        return PairKey{p.id_a, p.id_b, p.springs.size()};
+      },
+      [](const PairKey& key) {
+        return PairSprings{key.a, key.b, {}};
+      });
+  state.wall_springs = gather_springs<WallSprings, WallKey>(
+      ranks, wall_contacts_.springs(),
+      [](const WallSprings& w) {
+        return WallKey{w.grain, w.wall, w.springs.size()};
+      },
+      [](const WallKey& key) {
+        return WallSprings{key.grain, key.wall, {}};
+      });
+  std::sort(state.grains.begin(), state.grains.end(),
+            [](const GrainState& a, const GrainState& b) { return a.id < b.id; });
+  std::sort(state.pair_springs.begin(), state.pair_springs.end(),
+            [](const PairSprings& p, const PairSprings& q) {
+              return p.id_a != q.id_a ? p.id_a < q.id_a : p.id_b < q.id_b;
+            });
+  std::sort(state.wall_springs.begin(), state.wall_springs.end(),
+            [](const WallSprings& s, const WallSprings& t) {
+              return s.grain != t.grain ? s.grain < t.grain : s.wall < t.wall;
+            });
+  return state;
+}
+
+std::vector<ContactRecord> Simulation::contacts() {
+  bring_up_to_date();
+  grain_contacts_.evaluate(frames_, setup_.time_step);
+  wall_contacts_.evaluate(owned_frames(), setup_.time_step);
+  std::vector<ContactRecord> records;
+  for (std::size_t p = 0; p < grain_contacts_.pairs().size(); ++p) {
+    const PairForce& force = grain_contacts_.forces()[p];
+    const Pair& pair = grain_contacts_.pairs()[p];
+    if (force.touching == 0 || pair.slot_a >= grains_.size()) continue;
+    records.push_back({pair.id_a, false, pair.id_b.get(), frames_[pair.slot_a].position,
+                       frames_[pair.slot_b].position, force.force_on_a, force.deepest,
+                       force.touching});
+  }
+  for (std::size_t c = 0; c < wall_contacts_.candidates().size(); ++c) {
+    const WallForce& force = wall_contacts_.forces()[c];
+    if (force.touching == 0) continue;
+    const auto& candidate = wall_contacts_.candidates()[c];
+    const Vec3& center = grains_.position[candidate.slot];
+    records.push_back({candidate.grain, true, candidate.wall.get(), center,
+                       foot_on_wall(setup_.walls[candidate.wall.get()],
+                                    wall_contacts_.poses()[candidate.wall.get()], center),
+                       force.force, force.deepest, force.touching});
+  }
+  records = gather(distribution_.ranks(), records);
+  std::sort(records.begin(), records.end(), [](const ContactRecord& r, const ContactRecord& s) {
+    if (r.with_wall != s.with_wall) return !r.with_wall;
+    return r.grain != s.grain ? r.grain < s.grain : r.partner < s.partner;
+  });
+  return records;
+}
+
+}  // namespace reckon

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// One simulation on all ranks of this mpirun against the same on one rank, bit by bit:
+//   ranks_test DECOMPOSITION STEPS THREADS
+// The scene is a box of grains of two sizes, thrown down, shaken and sheared by moving walls. It is
+// stopped half-way and goes on from its state, as a restart does.
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "reckon/core/error.hpp"
+#include "reckon/parallel/threads.hpp"
+#include "reckon/simulation/placement.hpp"
+#include "reckon/simulation/simulation.hpp"
+#include "support/test_shapes.hpp"
+
+namespace reckon {
+namespace {
+
+SimulationSetup shaken_box(std::shared_ptr<const ShapeLibrary> shapes, DecompositionKind kind) {
+  SimulationSetup setup;
+  setup.shapes = std::move(shapes);
+  setup.density = 2000;
+  const AreaLaw law{2e7, 1.5e7, area_dashpot_factor(0.6)};
+  setup.contact = {law, 0.5, MasterRule::both};
+  const Vec3 low{-5, -5, 0};
+  const Vec3 high{5, 5, 12};
+  setup.walls = {
+      {"x-", PlaneSurface{low, {1, 0, 0}}, law, 0.3, false,
+       WallMotion{.amplitude = {0.4, 0, 0}, .frequency = 3}},
+      {"x+", PlaneSurface{high, {-1, 0, 0}}, law, 0.3, false, {}},
+      {"y-", PlaneSurface{low, {0, 1, 0}}, law, 0.3, false, {}},
+      {"y+", PlaneSurface{high, {0, -1, 0}}, law, 0.3, false, {}},
+      {"z-", PlaneSurface{low, {0, 0, 1}}, law, 0.6, false, WallMotion{.velocity = {1.5, 0, 0}}}};
+  setup.body_force.gravity = {0, 0, -9.81};
+  setup.body_force.random_acceleration = 5;
+  setup.body_force.seed = 9;
+  setup.damping = 0.1;
+  setup.time_step = 3e-4;
+  setup.skin = 0.1;
+  setup.decomposition = kind;
+  return setup;
+}
+
+SimulationState thrown_grains(const ShapeLibrary& shapes) {
+  FillPlacement fill;
+  fill.count = 60;
+  fill.region = BoxConfig{{-5, -5, 0}, {5, 5, 40}};
+  fill.velocity = {0.3, 0.1, -8};
+  SimulationState state;
+  state.grains = fill_region(fill, shapes, ShapeId{0}, GrainId{0}, 4);
+  return state;
+}
+
+struct Outcome {
+  SimulationState state;
+  Measurement measurement;
+  std::vector<ContactRecord> contacts;
+  std::uint64_t migrated{0};
+};
+
+Outcome run(const SimulationSetup& setup, SimulationState state, const Communicator& ranks,
+            int steps) {
+  Outcome outcome;
+  for (int half = 0; half < 2; ++half) {
+    if (!ranks.is_root()) state = {};
+    Simulation simulation{setup, state, ranks};
+    for (int n = 0; n < steps / 2; ++n) {
+      simulation.step();
+      if (n % 100 == 0) outcome.measurement = simulation.measure();
+    }
+    state = simulation.state();
+    outcome.measurement = simulation.measure();
+    outcome.contacts = simulation.contacts();
+    outcome.migrated += simulation.distribution().counters().migrated_grains;
+  }
+  outcome.state = state;
+  return outcome;
+}
+
+bool same_springs(const SimulationState& a, const SimulationState& b) {
+  if (a.pair_springs.size() != b.pair_springs.size()) return false;
+  if (a.wall_springs.size() != b.wall_springs.size()) return false;
+  for (std::size_t p = 0; p < a.pair_springs.size(); ++p) {
+    if (a.pair_springs[p].id_a != b.pair_springs[p].id_a ||
+        a.pair_springs[p].id_b != b.pair_springs[p].id_b ||
+        a.pair_springs[p].springs != b.pair_springs[p].springs) {
+      return false;
+    }
+  }
+  for (std::size_t w = 0; w < a.wall_springs.size(); ++w) {
+    if (a.wall_springs[w].grain != b.wall_springs[w].grain ||
+        a.wall_springs[w].springs != b.wall_springs[w].springs) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool same_contacts(const std::vector<ContactRecord>& a, const std::vector<ContactRecord>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    if (a[n].grain != b[n].grain || a[n].partner != b[n].partner || !(a[n].force == b[n].force)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+int compare(const Outcome& found, const Outcome& expected) {
+  int failures = 0;
+  const auto expect = [&failures](bool same, const char* what) {
+    if (same) return;
+    std::printf("differs from one rank: %s\n", what);
+    ++failures;
+  };
+  expect(found.state.grains == expected.state.grains, "grains");
+  expect(same_springs(found.state, expected.state), "springs");
+  expect(found.measurement == expected.measurement, "measurement");
+  expect(same_contacts(found.contacts, expected.contacts), "contacts");
+  expect(expected.state.pair_springs.size() > 15, "too few contacts to tell");
+  return failures;
+}
+
+int test(const Communicator& world, const std::string& name, int steps) {
+  DecompositionKind kind = DecompositionKind::balanced;
+  if (name == "grid") kind = DecompositionKind::grid;
+  if (name == "bins") kind = DecompositionKind::bins;
+  if (name == "replicated") kind = DecompositionKind::replicated;
+  const auto shapes =
+      testing::library_of({testing::bumpy_grain(1.0, 200, 16), testing::bumpy_grain(0.7, 150, 16)});
+  const Outcome found = run(shaken_box(shapes, kind), thrown_grains(*shapes), world, steps);
+  std::int64_t migrated = static_cast<std::int64_t>(found.migrated);
+  world.sum({&migrated, 1});
+  if (!world.is_root()) return 0;
+  const Outcome expected =
+      run(shaken_box(shapes, DecompositionKind::balanced), thrown_grains(*shapes), {}, steps);
+  const int failures = compare(found, expected);
+  std::printf("%s on %d ranks: %zu touching pairs, %lld grains migrated, %s\n", name.c_str(),
+              world.size(), expected.state.pair_springs.size(), static_cast<long long>(migrated),
+              failures == 0 ? "bit-identical" : "DIFFERENT");
+  return failures;
+}
+
+}  // namespace
+}  // namespace reckon
+
+int main(int argc, char** argv) {
+  const reckon::ParallelSession session{argc, argv};
+  if (argc != 4) return 2;
+  reckon::set_thread_count(std::atoi(argv[3]));
+  try {
+    return reckon::test(session.world(), argv[1], std::atoi(argv[2])) == 0 ? 0 : 1;
+  } catch (const reckon::Error& error) {
+    std::fprintf(stderr, "rank %d: %s\n", session.world().rank(), error.what());
+    session.world().abort(1);
+  }
+}

@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "grains_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "reckon/avatar/analytic.hpp"
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/avatar/surface_files.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/core/file.hpp"
+
+namespace reckon::app {
+namespace {
+
+class GrainsCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::path{::testing::TempDir()} /
+        (std::string{"grains_"} + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
+
+  /// Runs `reckon grains ARGUMENTS` and returns what it prints.
+  static std::string grains(std::vector<std::string> arguments) {
+    CLI::App app{"reckon"};
+    add_grains_command(app);
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
+    arguments.emplace_back("grains");
+    ::testing::internal::CaptureStdout();
+    try {
+      app.parse(arguments);
+    } catch (...) {
+      (void)::testing::internal::GetCapturedStdout();
+      throw;
+    }
+    return ::testing::internal::GetCapturedStdout();
+  }
+
+  /// The text of the Error or usage error that the arguments cause.
+  static std::string fault(const std::vector<std::string>& arguments) {
+    try {
+      (void)grains(arguments);
+    } catch (const Error& error) {
+      return error.what();
+    } catch (const CLI::ParseError& error) {
+      return error.what();
+    }
+    return "no fault";
+  }
+
+  std::filesystem::path folder_;
+};
+
+void expect_holds(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
+}
+
+TEST_F(GrainsCommand, SolidsHaveTheSizesAskedFor) {
+  grains({"solid", "--sphere", "1mm", "--sphere", "2mm", "--ellipsoid", "3mm,2mm,1mm", "--box",
+          "1mm,2mm,3mm", "--cylinder", "1mm,4mm", "--superellipsoid", "1mm,1mm,1mm,1,1",
+          "--voxels-per-diameter", "12", "--nodes", "64", "-o", path("solids.h5")});
+  const ShapeLibrary library = load_library(path("solids.h5"));
+  ASSERT_EQ(library.size(), 6U);
+  const double mm3 = 1e-9;
+  const double pi = std::numbers::pi;
+  const auto expect_volume = [&](const char* name, double expected) {
+    const Shape& shape = find_shape(library, name);
+    EXPECT_NEAR(shape.mass.volume / (expected * mm3), 1, 0.01) << name;
+    EXPECT_EQ(shape.nodes.size(), 64U);
+    EXPECT_NEAR(shape.descriptors.equivalent_diameter / shape.level_set.spacing, 12, 1e-9);
+  };
+  expect_volume("sphere_1", 4 * pi / 3);
+  expect_volume("sphere_2", 32 * pi / 3);
+  expect_volume("ellipsoid", 8 * pi);
+  expect_volume("box", 6);
+  expect_volume("cylinder", 4 * pi);
+  expect_volume("superellipsoid", 4 * pi / 3);
+}
+
+TEST_F(GrainsCommand, TheSeedDecidesWhatIsGenerated) {
+  const auto generate = [&](const std::string& seed, const std::string& name) {
+    grains({"generate", "--count", "2", "--seed", seed, "--d50", "0.3mm", "--voxels-per-diameter",
+            "10", "--nodes", "50", "--highest-degree", "6", "-o", path(name)});
+    return read_file(path(name));
+  };
+  const std::string first = generate("5", "a.h5");
+  EXPECT_TRUE(generate("5", "b.h5") == first);
+  EXPECT_FALSE(generate("6", "c.h5") == first);
+}
+
+TEST_F(GrainsCommand, MeshesTakeTheirNameAndUnit) {
+  write_stl(path("pebble.stl"), ellipsoid_mesh({3, 2, 2}, 0.4), "pebble");
+  grains({"from-mesh", path("pebble.stl"), "--unit", "mm", "--voxel", "0.4mm", "-o",
+          path("pebble.h5")});
+  const Shape shape = load_library(path("pebble.h5")).at(0);
+  EXPECT_EQ(shape.name, "pebble");
+  EXPECT_EQ(shape.level_set.spacing, 0.4e-3);
+  EXPECT_NEAR(shape.descriptors.length, 6e-3, 0.1e-3);
+}
+
+TEST_F(GrainsCommand, HarmonicsAreCutOffByOptionOrTable) {
+  // A sphere of radius 2 with a bump of degree 2, which the cut removes.
+  write_file(path("ball.dat"), "0 0 7.0898154 0\n1 0 0 0\n1 1 0 0\n2 0 1.5 0\n2 1 0 0\n2 2 0 0\n");
+  write_file(path("table.txt"), "Name Nnn\nball.dat 1\n");
+  const auto flatness = [&](const std::vector<std::string>& cut) {
+    std::vector<std::string> arguments{
+        "from-harmonics", path("ball.dat"), "--unit", "mm", "--voxels-per-diameter", "10", "-o",
+        path("ball.h5")};
+    arguments.insert(arguments.end(), cut.begin(), cut.end());
+    grains(arguments);
+    const Shape shape = load_library(path("ball.h5")).at(0);
+    return shape.descriptors.thickness / shape.descriptors.length;
+  };
+  EXPECT_LT(flatness({}), 0.8);
+  EXPECT_NEAR(flatness({"--degree", "1"}), 1, 1e-3);
+  EXPECT_NEAR(flatness({"--degree-table", path("table.txt")}), 1, 1e-3);
+  write_file(path("table.txt"), "Name Nnn\nother.dat 1\n");
+  expect_holds(fault({"from-harmonics", path("ball.dat"), "--unit", "mm", "--degree-table",
+                      path("table.txt"), "-o", path("no.h5")}),
+               "has no line for");
+}
+
+TEST_F(GrainsCommand, LegacyFilesThereAndBack) {
+  grains({"solid", "--box", "2m,3m,4m", "--voxel", "0.25m", "--nodes", "40", "-o", path("a.h5")});
+  grains({"to-legacy", path("a.h5"), path("legacy")});
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "legacy" / "morph_1.dat"));
+  grains({"from-legacy", path("legacy"), "--voxel", "0.25m", "-o", path("b.h5")});
+  const Shape before = load_library(path("a.h5")).at(0);
+  const Shape after = load_library(path("b.h5")).at(0);
+  EXPECT_EQ(after.name, "morph_1");
+  EXPECT_DOUBLE_EQ(after.mass.volume, before.mass.volume);
+  EXPECT_EQ(after.level_set.values, before.level_set.values);
+  EXPECT_EQ(after.nodes.x, before.nodes.x);
+  EXPECT_NEAR(after.bounding_radius, before.bounding_radius, 1e-9);
+}
+
+TEST_F(GrainsCommand, InfoAndExport) {
+  grains({"solid", "--sphere", "1mm", "--box", "1mm,1mm,2mm", "--voxels-per-diameter", "12",
+          "--nodes", "50", "-o", path("a.h5")});
+  const std::string table = grains({"info", path("a.h5")});
+  expect_holds(table, "sphere");
+  expect_holds(table, "checksums good");
+  const std::string json = grains({"info", path("a.h5"), "--json", "--shape", "box"});
+  expect_holds(json, "\"name\": \"box\"");
+  expect_holds(json, "\"nodes\": 50");
+  EXPECT_EQ(json.find("sphere\""), std::string::npos);
+  grains({"export", path("a.h5"), "--out", path("vtp")});
+  grains({"export", path("a.h5"), "--out", path("stl"), "--format", "stl", "--shape", "box"});
+  for (const char* name :
+       {"vtp/sphere.vtp", "vtp/sphere_nodes.vtp", "vtp/box.vtp", "stl/box.stl"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "stl" / "sphere.stl"));
+}
+
+TEST_F(GrainsCommand, FaultsSayWhatToDo) {
+  const std::string out = path("out.h5");
+  expect_holds(fault({"solid", "--sphere", "1", "-o", out}), "has no unit");
+  expect_holds(fault({"solid", "--sphere", "2s", "-o", out}), "not a length");
+  expect_holds(fault({"solid", "--sphere=-2mm", "-o", out}), "above zero");
+  expect_holds(fault({"solid", "--box", "1mm,2mm", "-o", out}), "3 are needed");
+  expect_holds(fault({"solid", "-o", out}), "no solid is given");
+  expect_holds(fault({"solid", "--sphere", "1mm"}), "--output");
+  expect_holds(fault({"solid", "--sphere", "1mm", "-o", path("no/out.h5")}), "does not exist");
+  expect_holds(fault({"solid", "--sphere", "1mm", "--voxels-per-diameter", "3", "-o", out}), "10");
+  expect_holds(fault({"from-mesh", path("missing.stl"), "--unit", "mm", "-o", out}), "missing.stl");
+  write_file(path("bad.stl"), "solid bad\nendsolid\n");
+  expect_holds(fault({"from-mesh", path("bad.stl"), "--unit", "mm", "-o", out}), "bad.stl");
+  expect_holds(fault({"from-mesh", path("bad.stl"), "--unit", "kg", "-o", out}), "unit of length");
+  expect_holds(fault({"generate", "--count", "1", "--roundness", "3", "-o", out}), "roundness");
+  expect_holds(fault({"info", path("bad.stl")}), "not a shape library");
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+}  // namespace
+}  // namespace reckon::app
