@@ -161,8 +161,9 @@ class Session {
  private:
   void begin() {
     const BuildInfo build = build_info();
-    note(fmt::format("reckon {} ({}), {} threads, {} grains, time step {:.6g} s", build.version,
-                     build.revision, thread_count(), record_.grains, record_.time_step));
+    note(fmt::format("reckon {} ({}), {} thread{}, {} grains, time step {:.6g} s", build.version,
+                     build.revision, thread_count(), thread_count() == 1 ? "" : "s", record_.grains,
+                     record_.time_step));
     if (resumed_) {
       note(fmt::format("resumed from the checkpoint of step {}", progress_.step));
     } else {
