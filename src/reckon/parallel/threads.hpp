@@ -40,6 +40,10 @@ inline void set_thread_count([[maybe_unused]] int count) {
 /// carried out of the parallel region: the one of the lowest k, whoever met it first.
 template <class Body>
 void parallel_for(std::size_t count, std::size_t chunk, Body&& body) {
+  if (count <= chunk) {  // work for one thread: do not wake the others
+    for (std::size_t k = 0; k < count; ++k) body(k);
+    return;
+  }
   std::exception_ptr failure;
   std::size_t failure_index = count;
 #ifdef _OPENMP
@@ -67,7 +71,7 @@ template <class Value>
 [[nodiscard]] double parallel_max(std::size_t count, double least, Value&& value) {
   double largest = least;
 #ifdef _OPENMP
-#pragma omp parallel for schedule(static) reduction(max : largest)
+#pragma omp parallel for schedule(static) reduction(max : largest) if (count > 4096)
 #endif
   for (std::size_t k = 0; k < count; ++k) {
     const double v = value(k);
