@@ -161,8 +161,9 @@ class Session {
  private:
   void begin() {
     const BuildInfo build = build_info();
-    note(fmt::format("reckon {} ({}), {} threads, {} grains, time step {:.6g} s", build.version,
-                     build.revision, thread_count(), record_.grains, record_.time_step));
+    note(fmt::format("reckon {} ({}), {} thread{}, {} grains, time step {:.6g} s", build.version,
+                     build.revision, thread_count(), thread_count() == 1 ? "" : "s", record_.grains,
+                     record_.time_step));
     if (resumed_) {
       note(fmt::format("resumed from the checkpoint of step {}", progress_.step));
     } else {
@@ -261,7 +262,7 @@ class Session {
     const char* status = end == RunEnd::interrupted ? "interrupted"
                          : end == RunEnd::at_rest   ? "at rest"
                                                     : "complete";
-    note(fmt::format("{} at step {} of {}", status, progress_.step, progress_.steps));
+    log_.write(fmt::format("{} at step {} of {}", status, progress_.step, progress_.steps));
     save_record(status);
     const EnergyBudget& energy = last_.energy;
     return {.end = end,
@@ -287,7 +288,7 @@ class Session {
     }
     RunFailure failure{text};
     record_.message = failure.what();
-    note(fmt::format("failed: {}", failure.what()));
+    log_.write(fmt::format("failed: {}", failure.what()));
     try {
       save_record("failed");
     } catch (const Error&) {

@@ -162,7 +162,7 @@ std::string plan_text(const RunPlan& plan) {
     text += fmt::format("  {:<12} {}\n", name, value);
   };
   line("grains",
-       fmt::format("{} of {} shapes ({} in the library), {:.4g} kg", human_count(plan.grains),
+       fmt::format("{}, of {} of the library's {} shapes, {:.4g} kg", human_count(plan.grains),
                    plan.shapes_in_use, plan.shapes, plan.solid_mass));
   line("sizes", fmt::format("bounding spheres of {:.4g} to {:.4g} m across", plan.smallest_diameter,
                             plan.largest_diameter));
@@ -192,9 +192,10 @@ std::string plan_text(const RunPlan& plan) {
   line("memory",
        fmt::format("about {} ({} of shapes)", human_bytes(plan.memory_shapes + plan.memory_grains),
                    human_bytes(plan.memory_shapes)));
-  line("output", fmt::format("about {}: {} history rows, {} ParaView frames, {} checkpoints",
+  line("output", fmt::format("about {}: {} history rows, {} ParaView frames, {} checkpoint{}",
                              human_bytes(plan.output_bytes), human_count(plan.history_rows),
-                             human_count(plan.frames), human_count(plan.checkpoints)));
+                             human_count(plan.frames), human_count(plan.checkpoints),
+                             plan.checkpoints == 1 ? "" : "s"));
   if (plan.trial_failure) {
     line("trial", "FAILED in the first steps: " + *plan.trial_failure);
   } else {

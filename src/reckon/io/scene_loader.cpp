@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <memory>
 #include <span>
@@ -18,6 +19,7 @@
 #include "reckon/io/number_table.hpp"
 #include "reckon/math/rotation.hpp"
 #include "reckon/simulation/placement.hpp"
+#include "reckon/simulation/time_step.hpp"
 
 namespace reckon {
 namespace {
@@ -37,6 +39,7 @@ class Loader {
     if (reading_.faults.empty() && scene.grains.empty()) {
       fault("grains", "the scene has no grains", "Place at least one.");
     }
+    if (reading_.faults.empty()) check_time_step(scene);
     std::stable_sort(
         reading_.faults.begin(), reading_.faults.end(),
         [](const SceneFault& a, const SceneFault& b) { return a.position < b.position; });
@@ -44,6 +47,24 @@ class Loader {
   }
 
  private:
+  /// The time step depends on the shapes, so what follows from it is known only here.
+  void check_time_step(const LoadedScene& scene) {
+    const TimeConfig& time = scene.config.time;
+    const double step = choose_time_step(scene.config, scene.grains, *scene.shapes).step;
+    const std::string key = time.duration ? "time.duration" : "time.steps";
+    if (!(step > 0 && std::isfinite(step))) {
+      return fault(key, fmt::format("the rule for the time step gives {}", step),
+                   "Where no grain moves freely, give time.step.");
+    }
+    constexpr double most_steps = 1e15;
+    if (time.duration && *time.duration / step > most_steps) {
+      fault(key,
+            fmt::format("needs {:.3g} steps of {:.3g} s, more than any machine can make",
+                        *time.duration / step, step),
+            {});
+    }
+  }
+
   void load_set(const GrainsConfig& set, const std::string& path, LoadedScene& scene) {
     if (set.library.empty()) return;  // its fault is known
     const std::size_t first_shape = shapes_.size();

@@ -21,14 +21,11 @@
 #include "reckon/core/error.hpp"
 #include "reckon/io/nearest_name.hpp"
 #include "reckon/io/scene_description.hpp"
+#include "reckon/io/toml_syntax.hpp"
 #include "reckon/io/units.hpp"
 
 namespace reckon {
 namespace {
-
-SourcePosition position_of(const toml::source_region& region) {
-  return {region.begin.line, region.begin.column};
-}
 
 std::string kind_of(const toml::node& node) {
   switch (node.type()) {
@@ -422,52 +419,6 @@ class Reader {
   std::vector<Frame> frames_;
 };
 
-/// Reads TOML and, after a fault of syntax, blanks its line and reads again, so that later faults
-/// come to light too. Stops where that would only produce faults that follow from the first.
-struct Syntax {
-  toml::table root;
-  std::vector<SceneFault> faults;
-  bool readable{false};  ///< whether `root` holds what the sound lines say
-};
-
-std::string sentence_case(std::string_view text) {
-  std::string out{text};
-  if (!out.empty() && out[0] >= 'A' && out[0] <= 'Z')
-    out[0] = static_cast<char>(out[0] - 'A' + 'a');
-  return out;
-}
-
-Syntax parse_toml(std::string text) {
-  constexpr std::size_t most_faults = 20;
-  Syntax syntax;
-  std::uint32_t last_line = 0;
-  bool header_lost = false;
-  while (syntax.faults.size() < most_faults) {
-    try {
-      syntax.root = toml::parse(std::string_view{text});
-      syntax.readable = !header_lost;
-      return syntax;
-    } catch (const toml::parse_error& error) {
-      const SourcePosition position = position_of(error.source());
-      if (position.line <= last_line) return syntax;
-      last_line = position.line;
-      syntax.faults.push_back({position, {}, sentence_case(error.description()), {}});
-    }
-    std::size_t begin = 0;
-    for (std::uint32_t line = 1; line < last_line && begin != std::string::npos; ++line) {
-      begin = text.find('\n', begin);
-      if (begin != std::string::npos) ++begin;
-    }
-    if (begin == std::string::npos || begin >= text.size()) return syntax;
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::size_t first = text.find_first_not_of(" \t", begin);
-    header_lost = header_lost || (first < end && text[first] == '[');
-    std::fill(text.begin() + static_cast<std::ptrdiff_t>(begin),
-              text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
-  }
-  return syntax;
-}
-
 }  // namespace
 
 std::string describe(const SceneFault& fault, const std::string& file) {
@@ -481,7 +432,7 @@ std::string describe(const SceneFault& fault, const std::string& file) {
 SceneReading read_scene_text(std::string_view text, const std::filesystem::path& directory) {
   SceneReading reading;
   reading.text = text;
-  Syntax syntax = parse_toml(reading.text);
+  TomlSyntax syntax = parse_toml(reading.text);
   const bool complete = syntax.faults.empty();
   reading.faults = std::move(syntax.faults);
   if (syntax.readable) {

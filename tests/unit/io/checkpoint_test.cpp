@@ -12,6 +12,7 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/io/run_diff.hpp"
+#include "support/test_path.hpp"
 
 namespace reckon {
 namespace {
@@ -51,13 +52,9 @@ Checkpoint awkward_checkpoint() {
   return checkpoint;
 }
 
-class CheckpointTest : public testing::Test {
+class CheckpointTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    path_ = std::filesystem::path{testing::TempDir()} /
-            (std::string{"checkpoint."} +
-             testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5");
-  }
+  void SetUp() override { path_ = testing::test_path(); }
   void TearDown() override { std::filesystem::remove(path_); }
   std::filesystem::path path_;
 };

@@ -11,6 +11,7 @@
 
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
+#include "support/test_path.hpp"
 
 namespace reckon {
 namespace {
@@ -29,13 +30,9 @@ Measurement measurement_at(std::uint64_t step) {
   return m;
 }
 
-class HistoryTest : public testing::Test {
+class HistoryTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    path_ = std::filesystem::path{testing::TempDir()} /
-            (std::string{"history."} +
-             testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv");
-  }
+  void SetUp() override { path_ = testing::test_path(); }
   void TearDown() override { std::filesystem::remove(path_); }
   std::filesystem::path path_;
 };

@@ -15,6 +15,7 @@
 #include "reckon/io/run_folder.hpp"
 #include "reckon/io/scene_loader.hpp"
 #include "reckon/parallel/threads.hpp"
+#include "support/test_path.hpp"
 #include "support/test_shapes.hpp"
 
 namespace reckon::testing {
@@ -25,9 +26,7 @@ class RunSceneTest : public ::testing::Test {
  protected:
   void SetUp() override {
     set_thread_count(1);  // small scenes on a busy machine: threads would mostly wait
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    root_ = std::filesystem::path{::testing::TempDir()} /
-            (std::string{info->test_suite_name()} + "." + info->name());
+    root_ = test_path();
     std::filesystem::remove_all(root_);
     std::filesystem::create_directories(root_);
     save_library(root_ / "grains.h5", {bumpy_grain(0.001, 120, 16), sphere(0.001, 100, 16)});

@@ -107,5 +107,22 @@ TEST_F(SceneLoaderTest, AccelerationsMustMatchTheGrains) {
       << found[0];
 }
 
+TEST_F(SceneLoaderTest, ATimeStepMustComeOutOfTheScene) {
+  const std::vector<std::string> fixed = faults(
+      "[[grains]]\nlibrary = 'grains.h5'\nplace = [{ position = [0, 0, 0], fixed = true }]\n");
+  ASSERT_EQ(fixed.size(), 1U);
+  EXPECT_EQ(
+      fixed[0],
+      "s:2:14: time.steps: the rule for the time step gives inf. Where no grain moves freely, "
+      "give time.step.");
+  SceneReading reading = read_scene_text(
+      "contact.normal_stiffness = 1e9\ntime = { duration = 1e9, step = 1e-12 }\n"
+      "[[grains]]\nlibrary = 'grains.h5'\nplace = [{ position = [0, 0, 0] }]\n",
+      root_);
+  (void)load_scene(reading);
+  ASSERT_EQ(reading.faults.size(), 1U);
+  EXPECT_EQ(reading.faults[0].key, "time.duration");
+}
+
 }  // namespace
 }  // namespace reckon

@@ -14,16 +14,16 @@
 #include "reckon/core/error.hpp"
 #include "reckon/io/scene_schema.hpp"
 #include "reckon/io/scene_writer.hpp"
+#include "support/test_path.hpp"
 
 namespace reckon {
 namespace {
 
 /// A folder with an empty shape library in it, so that scenes can name one.
-class SceneReaderTest : public testing::Test {
+class SceneReaderTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    directory_ = std::filesystem::path{testing::TempDir()} /
-                 testing::UnitTest::GetInstance()->current_test_info()->name();
+    directory_ = testing::test_path();
     std::filesystem::create_directories(directory_);
     std::ofstream{directory_ / "sand.h5"};
   }
