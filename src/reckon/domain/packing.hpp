@@ -16,8 +16,9 @@ namespace reckon {
 template <class Value>
 requires std::is_trivially_copyable_v<Value>
 void pack(Bytes& bytes, const Value& value) {
-  const auto* first = reinterpret_cast<const std::byte*>(&value);
-  bytes.insert(bytes.end(), first, first + sizeof(Value));
+  const std::size_t end = bytes.size();
+  bytes.resize(end + sizeof(Value));
+  std::memcpy(bytes.data() + end, &value, sizeof(Value));
 }
 
 /// Appends a count and that many values.
@@ -25,8 +26,10 @@ template <class Value>
 requires std::is_trivially_copyable_v<Value>
 void pack(Bytes& bytes, std::span<const Value> values) {
   pack(bytes, static_cast<std::uint64_t>(values.size()));
-  const auto* first = reinterpret_cast<const std::byte*>(values.data());
-  bytes.insert(bytes.end(), first, first + values.size_bytes());
+  if (values.empty()) return;
+  const std::size_t end = bytes.size();
+  bytes.resize(end + values.size_bytes());
+  std::memcpy(bytes.data() + end, values.data(), values.size_bytes());
 }
 
 /// Takes a message apart in the order in which it was packed.

@@ -87,7 +87,8 @@ void describe(Visitor& v, ContactConfig& contact) {
   v.integer({.name = "node_cap",
              .range = at_least(1),
              .standard = "no cap",
-             .meaning = "Pairs with more touching nodes than this are scaled by cap over nodes."},
+             .meaning = "Pairs of grains with more touching nodes than this are scaled by cap over "
+                        "nodes; walls are not."},
             contact.node_cap);
   v.rule(!contact.node_cap || contact.law == ContactLawKind::linear, {"node_cap"},
          "`node_cap` belongs to law `linear`; law `area` does not depend on the number of nodes");

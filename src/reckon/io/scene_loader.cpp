@@ -159,7 +159,12 @@ class Loader {
       }
       GrainState grain;
       grain.position = voxel * Vec3{positions[n][0], positions[n][1], positions[n][2]};
-      grain.orientation = normalized(Quaternion{d, -b, a, -c});
+      const Quaternion written{d, -b, a, -c};
+      // The few digits of a file leave its length a little off one. The legacy code takes its first
+      // step with it so, and so do we.
+      constexpr double rounding = 1e-6;
+      grain.orientation =
+          std::abs(a * a + b * b + c * c + d * d - 1) < rounding ? written : normalized(written);
       grains.push_back(grain);
     }
     return grains;

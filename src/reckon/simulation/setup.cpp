@@ -9,13 +9,13 @@
 namespace reckon {
 namespace {
 
+/// The node cap belongs to pairs of grains: the published code does not apply it to walls.
 AnyContactLaw make_law(const ContactConfig& contact, double normal_stiffness,
-                       double shear_stiffness, bool dashpot) {
+                       double shear_stiffness, bool dashpot, std::uint32_t node_cap) {
   const bool damped = dashpot && contact.restitution.has_value();
   if (contact.law == ContactLawKind::linear) {
     return LinearLaw{normal_stiffness, shear_stiffness,
-                     damped ? linear_dashpot_factor(*contact.restitution) : 0,
-                     contact.node_cap.value_or(0)};
+                     damped ? linear_dashpot_factor(*contact.restitution) : 0, node_cap};
   }
   return AreaLaw{normal_stiffness, shear_stiffness,
                  damped ? area_dashpot_factor(*contact.restitution) : 0,
@@ -46,7 +46,7 @@ std::vector<Wall> make_walls(const SceneConfig& scene) {
   for (const WallConfig& config : scene.walls) {
     const AnyContactLaw law =
         make_law(scene.contact, config.normal_stiffness.value_or(scene.contact.normal_stiffness),
-                 config.shear_stiffness.value_or(scene.contact.shear_stiffness), config.dashpot);
+                 config.shear_stiffness.value_or(scene.contact.shear_stiffness), config.dashpot, 0);
     for (const auto& [suffix, surface] : surfaces(config)) {
       walls.push_back({config.name + suffix, surface, law,
                        config.friction.value_or(scene.material.friction), config.shortened_lever,
@@ -70,7 +70,8 @@ PreparedScene prepare(const LoadedScene& scene) {
       .shapes = scene.shapes,
       .density = config.material.density,
       .contact = {make_law(config.contact, config.contact.normal_stiffness,
-                           config.contact.shear_stiffness, true),
+                           config.contact.shear_stiffness, true,
+                           config.contact.node_cap.value_or(0)),
                   config.material.friction, config.contact.master},
       .walls = make_walls(config),
       .body_force = {config.body.gravity, config.body.random_acceleration,

@@ -13,13 +13,13 @@ namespace {
 
 constexpr double touching_share = 0.05;  // of a grain's surface or nodes
 
-double contact_stiffness(const ContactConfig& contact, double normal_stiffness,
+double contact_stiffness(const ContactConfig& contact, double normal_stiffness, bool capped,
                          const Shape& shape) {
   if (contact.law == ContactLawKind::area) {
     return normal_stiffness * touching_share * exact_sum(shape.nodes.area);
   }
-  const double nodes = contact.node_cap ? static_cast<double>(*contact.node_cap)
-                                        : touching_share * static_cast<double>(shape.nodes.size());
+  const double nodes = capped ? static_cast<double>(*contact.node_cap)
+                              : touching_share * static_cast<double>(shape.nodes.size());
   return normal_stiffness * std::max(nodes, 1.0);
 }
 
@@ -31,9 +31,10 @@ TimeStepChoice choose_time_step(const SceneConfig& scene, std::span<const GrainS
   for (const WallConfig& wall : scene.walls) {
     normal_stiffness = std::max(normal_stiffness, wall.normal_stiffness.value_or(0));
   }
+  const bool capped = scene.contact.node_cap && scene.walls.empty();  // walls know no cap
   std::vector<double> stiffness;
   for (const Shape& shape : shapes) {
-    stiffness.push_back(contact_stiffness(scene.contact, normal_stiffness, shape));
+    stiffness.push_back(contact_stiffness(scene.contact, normal_stiffness, capped, shape));
   }
   TimeStepChoice choice;
   double slowest = std::numeric_limits<double>::infinity();

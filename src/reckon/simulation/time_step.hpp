@@ -23,8 +23,8 @@ struct TimeStepChoice {
 
 /// step_fraction * sqrt(m / k), the smallest over all grains, with k the stiffness that a contact
 /// really has. Law `area`: k_n times a twentieth of the surface, as a sphere has that overlaps by a
-/// tenth of its radius. Law `linear`: k_n times node_cap, or without a cap times a twentieth of the
-/// nodes. Walls count with their own stiffness.
+/// tenth of its radius. Law `linear`: k_n times a twentieth of the nodes, or, where there are no
+/// walls, times node_cap. Walls count with their own stiffness.
 [[nodiscard]] TimeStepChoice choose_time_step(const SceneConfig& scene,
                                               std::span<const GrainState> grains,
                                               std::span<const Shape> shapes);
