@@ -65,6 +65,18 @@ void restart_with_short_spin(char** argv) {
   execv("/proc/self/exe", argv);  // on failure: go on as we are
 }
 
+/// A run uses one process: copies of it would write over each other's files.
+void require_one_process() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+    const char* count = std::getenv(name);
+    if (count == nullptr || std::atoi(count) <= 1) continue;
+    throw reckon::Error{{.place = {},
+                         .problem = fmt::format("started {} times at once", count),
+                         .reason = "a run uses one process with threads",
+                         .fix = "Start it without mpirun; --threads sets the number of threads."}};
+  }
+}
+
 int complain(const std::string& problem, int code) {
   fmt::print(stderr, "reckon: error: {}\n", problem);
   return code;
@@ -90,6 +102,7 @@ int main(int argc, char** argv) {
   add_reference_command(app);
   app.footer(std::string{"`reckon COMMAND --help` has examples.\n\n"} + exit_code_footer);
   try {
+    require_one_process();
     require_known_command(app, argc, argv);
     app.parse(argc, argv);
     return success;

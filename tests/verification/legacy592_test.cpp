@@ -4,7 +4,6 @@
 // against the trajectories that the code computed.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -12,18 +11,18 @@
 
 #include "reckon/io/scene_loader.hpp"
 #include "reckon/simulation/setup.hpp"
+#include "support/legacy_data.hpp"
 
 namespace reckon {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path data_folder = fs::path{RECKON_SOURCE_DIR} / "../shared/data/legacy592";
 constexpr std::size_t grain_count = 592;
 
 /// Frames of 592 positions: before steps 0, 50, 100, 150 and 200.
-std::vector<std::vector<Vec3>> reference(const std::string& name) {
-  std::ifstream file{data_folder / ("reference_positions_" + name + ".dat")};
+std::vector<std::vector<Vec3>> reference(const fs::path& data, const std::string& name) {
+  std::ifstream file{data / ("reference_positions_" + name + ".dat")};
   std::vector<std::vector<Vec3>> frames(5, std::vector<Vec3>(grain_count));
   for (auto& frame : frames) {
     for (Vec3& p : frame) file >> p.x >> p.y >> p.z;
@@ -32,23 +31,14 @@ std::vector<std::vector<Vec3>> reference(const std::string& name) {
   return frames;
 }
 
-class Legacy592 : public ::testing::Test {
+class Legacy592 : public testing::LegacyDataTest {
  protected:
-  void SetUp() override {
-    if (!fs::exists(data_folder)) GTEST_SKIP() << "needs " << data_folder;
-    fs::create_directories(folder_ / "morphologies");
-    const std::string unpack = "tar -xJf '" + (data_folder / "morphologies.tar.xz").string() +
-                               "' -C '" + (folder_ / "morphologies").string() + "'";
-    if (std::system(unpack.c_str()) != 0) GTEST_SKIP() << "needs tar with xz";
-    for (const char* kind : {"positions", "rotations", "accelerations"}) {
-      const std::string name = std::string{kind} + "_s592.dat";
-      fs::copy_file(data_folder / name, folder_ / name, fs::copy_options::overwrite_existing);
-    }
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// Largest distance from the reference at each of its frames, with this friction.
   std::vector<double> distances(double friction, double wall_friction, const std::string& name) {
+    for (const char* kind : {"positions", "rotations", "accelerations"}) {
+      const std::string file = std::string{kind} + "_s592.dat";
+      fs::copy_file(data_ / file, folder_ / file, fs::copy_options::overwrite_existing);
+    }
     fs::copy_file(fs::path{RECKON_SOURCE_DIR} / "examples/legacy592/scene.toml",
                   folder_ / "scene.toml", fs::copy_options::overwrite_existing);
     SceneReading reading = read_scene_file(folder_ / "scene.toml");
@@ -59,7 +49,7 @@ class Legacy592 : public ::testing::Test {
     PreparedScene prepared = prepare(scene);
     Simulation simulation{prepared.setup, prepared.initial};
     std::vector<double> largest;
-    for (const auto& frame : reference(name)) {
+    for (const auto& frame : reference(data_, name)) {
       double worst = 0;
       for (std::size_t g = 0; g < grain_count; ++g) {
         worst = std::max(worst, norm(simulation.grains().position[g] - frame[g]));
@@ -69,11 +59,6 @@ class Legacy592 : public ::testing::Test {
     }
     return largest;
   }
-
-  // A folder of its own for each test: tests may run at the same time.
-  fs::path folder_ = fs::path{::testing::TempDir()} /
-                     (std::string{"reckon_legacy592_"} +
-                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(Legacy592, WithoutFrictionPathsAgreeToRounding) {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include "equal_morphologies.hpp"
@@ -11,41 +9,21 @@
 #include "reckon/avatar/legacy_morphology.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/core/file.hpp"
+#include "support/legacy_data.hpp"
 
 namespace reckon {
 namespace {
 
-class LegacyData : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const std::filesystem::path data =
-        std::filesystem::path{RECKON_SOURCE_DIR} / "../shared/data/legacy592";
-    if (!std::filesystem::exists(data / "morphologies.tar.xz")) {
-      GTEST_SKIP() << "the legacy592 data set is not beside the project";
-    }
-    data_ = data;
-    folder_ = std::filesystem::path{::testing::TempDir()} / "legacy592";
-    std::filesystem::create_directories(folder_);
-    const std::string command =
-        "tar -xf '" + (data / "morphologies.tar.xz").string() + "' -C '" + folder_.string() + "'";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-  }
-  void TearDown() override {
-    if (!folder_.empty()) std::filesystem::remove_all(folder_);
-  }
-
-  std::filesystem::path data_;
-  std::filesystem::path folder_;
-};
+using LegacyData = testing::LegacyDataTest;
 
 TEST_F(LegacyData, AllMorphologiesRoundTripAndAgreeWithTheirGrids) {
-  const ShapeLibrary library = load_library(folder_);
+  const ShapeLibrary library = load_library(morphologies_);
   ASSERT_EQ(library.size(), 74U);
   EXPECT_EQ(library[0].name, "morph_1");
   EXPECT_EQ(library[9].name, "morph_10");
   for (std::size_t s = 0; s < library.size(); ++s) {
     const std::string name = "morph_" + std::to_string(s + 1) + ".dat";
-    const LegacyMorphology read = parse_legacy_morphology(read_file(folder_ / name), name);
+    const LegacyMorphology read = parse_legacy_morphology(read_file(morphologies_ / name), name);
     test::expect_equal(to_legacy(library[s]), read);
     test::expect_equal(parse_legacy_morphology(format_legacy_morphology(read), name), read);
     const SolidProperties counted = grid_properties(library[s].level_set);
