@@ -52,7 +52,7 @@ void print(const char* name, const Cost& cost) {
 
 void print(const ContactCounters& before, const ContactCounters& after, std::uint64_t list_rebuilds,
            double grains) {
-  const double evaluations = static_cast<double>(after.evaluations - before.evaluations);
+  const auto evaluations = static_cast<double>(after.evaluations - before.evaluations);
   const auto rate = [&](std::uint64_t ContactCounters::*count) {
     return static_cast<double>(after.*count - before.*count) / evaluations / grains;
   };
@@ -130,7 +130,7 @@ void run(const WorkloadKind& kind, const Options& options) {
 }  // namespace
 }  // namespace reckon::bench
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): ends with its text
   using namespace reckon;
   CLI::App app{"Costs of a step with the near and the plain contact engine"};
   std::string name = "dense";

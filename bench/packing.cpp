@@ -130,7 +130,7 @@ ShapeLibrary make_shapes(const std::vector<GrainKind>& kinds, std::uint32_t dist
     statistics.log_deviation = 0.1;
     const std::size_t first = shapes.size();
     for (std::uint32_t n = 0; n < kind.count; ++n) {
-      if (n >= distinct) {
+      if (distinct > 0 && n >= distinct) {
         shapes.push_back(shapes[first + n % distinct]);
         continue;
       }
@@ -149,7 +149,9 @@ double wall_pressure(const Measurement& now, const Vec3& size) {
   for (int axis = 0; axis < 3; ++axis) {
     const double area = size[(axis + 1) % 3] * size[(axis + 2) % 3];
     for (int side = 0; side < 2; ++side) {
-      sum += std::abs(now.wall_force[static_cast<std::size_t>(2 * axis + side)][axis]) / area;
+      sum += std::abs(now.wall_force[2 * static_cast<std::size_t>(axis) +
+                                     static_cast<std::size_t>(side)][axis]) /
+             area;
     }
   }
   return sum / 6;

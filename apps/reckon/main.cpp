@@ -9,6 +9,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "check_command.hpp"
@@ -57,6 +58,7 @@ void require_known_command(const CLI::App& app, int argc, char** argv) {
 /// the cores too, each of the many short parallel loops of a step then waits for a turn of the
 /// scheduler, and a run becomes a hundred times slower. The library reads its settings before main,
 /// so the program starts itself once more with a short spin, unless the user has chosen one.
+// NOLINTBEGIN(concurrency-mt-unsafe): the environment is read before any thread starts
 void restart_with_short_spin(char** argv) {
   for (const char* name : {"GOMP_SPINCOUNT", "OMP_WAIT_POLICY"}) {
     if (std::getenv(name) != nullptr) return;
@@ -69,13 +71,14 @@ void restart_with_short_spin(char** argv) {
 void require_one_process() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
     const char* count = std::getenv(name);
-    if (count == nullptr || std::atoi(count) <= 1) continue;
+    if (count == nullptr || std::string_view{count} == "1") continue;
     throw reckon::Error{{.place = {},
                          .problem = fmt::format("started {} times at once", count),
                          .reason = "a run uses one process with threads",
                          .fix = "Start it without mpirun; --threads sets the number of threads."}};
   }
 }
+// NOLINTEND(concurrency-mt-unsafe)
 
 int complain(const std::string& problem, int code) {
   fmt::print(stderr, "reckon: error: {}\n", problem);
@@ -84,7 +87,8 @@ int complain(const std::string& problem, int code) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+// What escapes while the options are described ends the program with its own text.
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   using namespace reckon::app;
   restart_with_short_spin(argv);
   CLI::App app{
