@@ -4,6 +4,7 @@
 // The near engine and the plain one end in the same bits, whatever the grains do.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include "reckon/core/random.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "reckon/simulation/placement.hpp"
@@ -83,7 +84,7 @@ Scene sheared_box(const AnyContactLaw& law) {
     grain.id = GrainId{n};
     grain.shape = ShapeId{n % 3};
     grain.position = {pitch * (n % 4 + 0.5 + jitter()), pitch * (n / 4 % 4 + 0.5 + jitter()),
-                      pitch * (n / 16 + 0.5 + jitter())};
+                      pitch * (std::floor(n / 16.0) + 0.5 + jitter())};
     // Given with few digits, as an input file may.
     grain.orientation = {0.5, 0.5 + 0.001 * n, -0.5, 0.498};
     scene.start.grains.push_back(grain);
@@ -125,7 +126,8 @@ Scene fast_spin() {
     GrainState grain;
     grain.id = GrainId{100 - n};
     grain.shape = ShapeId{n % 2};
-    grain.position = {2.2 * (n % 4) + 1.2, 2.2 * (n / 4 % 4) + 1.2, 2.2 * (n / 16) + 1.2};
+    grain.position = {2.2 * (n % 4) + 1.2, 2.2 * (n / 4 % 4) + 1.2,
+                      2.2 * std::floor(n / 16.0) + 1.2};
     for (int axis = 0; axis < 3; ++axis) {
       grain.angular_velocity_body[axis] = random.uniform(-80, 80);
       grain.velocity[axis] = random.uniform(-2, 2);

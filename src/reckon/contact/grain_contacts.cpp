@@ -249,6 +249,7 @@ void GrainContacts::adopt(std::span<const PairSprings> springs) {
   }
   // Back into the order of the ids, which rebuild() relies on.
   std::vector<std::size_t> order;
+  order.reserve(listed.size());
   for (const auto& [ids, p] : listed) order.push_back(p);
   const auto reorder = [&order](auto& values) {
     std::remove_reference_t<decltype(values)> sorted;

@@ -46,9 +46,7 @@ void coordinates(void* data, int /*global_length*/, int /*local_length*/, int co
   const Points& points = points_of(data);
   for (int n = 0; n < count; ++n) {
     const Vec3& p = points.positions[local[n]];
-    out[3 * n] = p.x;
-    out[3 * n + 1] = p.y;
-    out[3 * n + 2] = p.z;
+    for (const double coordinate : {p.x, p.y, p.z}) *out++ = coordinate;
   }
   *error = ZOLTAN_OK;
 }

@@ -16,6 +16,7 @@ GhostExchange::GhostExchange(const Communicator& ranks, std::vector<BorderGrain>
     std::vector<Bytes> outgoing;
     for (const auto& indices : stage.sends.indices) {
       std::vector<BorderGrain> grains;
+      grains.reserve(indices.size());
       for (const std::uint32_t index : indices) grains.push_back(known_[index]);
       pack<BorderGrain>(outgoing.emplace_back(), grains);
       stage.out.resize(stage.out.size() + indices.size());

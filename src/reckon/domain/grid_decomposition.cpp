@@ -52,6 +52,7 @@ GhostExchange::Sends GridDecomposition::border_layer(int axis,
 
 std::unique_ptr<Ghosts> GridDecomposition::exchange_ghosts(std::vector<BorderGrain> owned) const {
   std::vector<GhostExchange::Choose> phases;
+  phases.reserve(3);
   for (int axis = 0; axis < 3; ++axis) {
     phases.emplace_back(
         [this, axis](std::span<const BorderGrain> known) { return border_layer(axis, known); });

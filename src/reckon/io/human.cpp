@@ -28,8 +28,9 @@ std::string human_duration(double seconds) {
   const auto whole = static_cast<std::uint64_t>(std::fmin(std::round(seconds), 1e18));
   const std::uint64_t minutes = whole / 60;
   if (minutes < 60) return fmt::format("{} min {:02} s", minutes, whole % 60);
-  if (minutes < 24 * 60) return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
-  return fmt::format("{} d {:02} h", minutes / (24 * 60), minutes / 60 % 24);
+  constexpr std::uint64_t day = 1440;  // minutes
+  if (minutes < day) return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+  return fmt::format("{} d {:02} h", minutes / day, minutes / 60 % 24);
 }
 
 std::string human_count(std::uint64_t count) {

@@ -188,12 +188,9 @@ class Session {
     if (is_due(step, config_.output.history_interval)) append_history();
     if (is_due(step, rest_interval())) rests = rests_after_history();
     if (is_due(step, config_.output.fields_interval)) write_fields();
-    if (is_due(step, config_.output.checkpoint_interval)) {
-      save_checkpoint();
-    } else if (options_.safety_interval > 0 &&
-               seconds_since(last_checkpoint_time_) >= options_.safety_interval) {
-      save_checkpoint();
-    }
+    const bool too_long_ago = options_.safety_interval > 0 &&
+                              seconds_since(last_checkpoint_time_) >= options_.safety_interval;
+    if (is_due(step, config_.output.checkpoint_interval) || too_long_ago) save_checkpoint();
     if (seconds_since(last_log_time_) >= log_interval) {
       last_log_time_ = Clock::now();
       log_.write(

@@ -190,7 +190,7 @@ std::optional<Difference> first_difference(const SimulationState& a, const Simul
   const std::vector<CheckpointColumn> first = to_columns(a);
   const std::vector<CheckpointColumn> second = to_columns(b);
   for (std::size_t c = 0; c < first.size(); ++c) {
-    const auto difference = std::visit(
+    auto difference = std::visit(
         [&](const auto& values) {
           using Values = std::decay_t<decltype(values)>;
           return column_difference(first[c], values, std::get<Values>(second[c].values), a);

@@ -39,7 +39,7 @@ RunLog::RunLog(std::filesystem::path path)
 
 RunLog::~RunLog() { ::close(descriptor_); }
 
-void RunLog::write(std::string_view line) {
+void RunLog::write(std::string_view line) const {
   std::string text = utc_now() + "  ";
   text += line;
   text += '\n';
@@ -51,7 +51,7 @@ void write_run_record(const std::filesystem::path& path, const RunRecord& record
   const BuildInfo build = build_info();
   char host[256] = "";
   if (::gethostname(host, sizeof host - 1) != 0) host[0] = '\0';
-  const double steps_done = static_cast<double>(record.step - record.first_step);
+  const auto steps_done = static_cast<double>(record.step - record.first_step);
   JsonWriter json;
   json.begin_object();
   json.value("status", record.status);

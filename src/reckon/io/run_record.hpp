@@ -20,7 +20,7 @@ class RunLog {
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
 
-  void write(std::string_view line);
+  void write(std::string_view line) const;
 
  private:
   std::filesystem::path path_;

@@ -89,7 +89,7 @@ int checked_count(std::size_t bytes) {
 
 Bytes Communicator::broadcast(Bytes bytes, int root) const {
   if (!impl_) return bytes;
-  std::int64_t length = static_cast<std::int64_t>(bytes.size());
+  auto length = static_cast<std::int64_t>(bytes.size());
   MPI_Bcast(&length, 1, MPI_INT64_T, root, impl_->handle);
   bytes.resize(static_cast<std::size_t>(length));
   MPI_Bcast(bytes.data(), checked_count(bytes.size()), MPI_BYTE, root, impl_->handle);

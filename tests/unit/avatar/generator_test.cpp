@@ -147,7 +147,8 @@ double largest_inner_ball(const TriangleBvh& bvh, double reach) {
   for (double step = reach / 4; step > 1e-3 * reach; step *= 0.6) {
     const Vec3 center = best;
     for (int n = 0; n < 125; ++n) {
-      const Vec3 at = center + step * Vec3{n % 5 - 2.0, n / 5 % 5 - 2.0, n / 25 - 2.0};
+      const Vec3 at =
+          center + step * Vec3{n % 5 - 2.0, n / 5 % 5 - 2.0, std::floor(n / 25.0) - 2.0};
       if (-bvh.signed_distance(at) > depth) {
         depth = -bvh.signed_distance(at);
         best = at;

@@ -43,10 +43,10 @@ class SceneReaderTest : public ::testing::Test {
   }
   /// The faults of lines put below a sound scene, whose own lines are not counted.
   [[nodiscard]] std::vector<std::string> faults_below(const std::string& lines) const {
-    return faults(std::string{sound_} + lines);
+    return faults(std::string{sound} + lines);
   }
 
-  static constexpr const char* sound_ =
+  static constexpr const char* sound =
       "contact.normal_stiffness = 1e9\n"
       "time.steps = 10\n"
       "grains = [{ library = 'sand.h5', place = [{ position = [0, 0, 0] }] }]\n";
@@ -130,7 +130,7 @@ surfaces = true
 }
 
 TEST_F(SceneReaderTest, AbsentKeysKeepTheDefaultsOfTheConfig) {
-  const SceneReading reading = read(sound_);
+  const SceneReading reading = read(sound);
   ASSERT_TRUE(reading.faults.empty());
   SceneConfig expected;
   expected.contact.normal_stiffness = 1e9;
@@ -184,7 +184,7 @@ TEST_F(SceneReaderTest, ListsAllFaultsOfAnInputInOneGo) {
 
 TEST_F(SceneReaderTest, SuggestsTheNearestKeyOrItsTable) {
   const auto fix_of = [&](const std::string& lines) {
-    const SceneReading reading = read(std::string{sound_} + lines);
+    const SceneReading reading = read(std::string{sound} + lines);
     return reading.faults.size() == 1 ? reading.faults[0].fix : "not one fault";
   };
   EXPECT_EQ(fix_of("[material]\ndensty = 1\n"), "Did you mean `density`?");
