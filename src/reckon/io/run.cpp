@@ -7,20 +7,16 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <span>
 #include <string>
 #include <utility>
 
-#include "reckon/avatar/library_file.hpp"
 #include "reckon/core/build_info.hpp"
 #include "reckon/core/file.hpp"
-#include "reckon/core/xxhash64.hpp"
 #include "reckon/io/checkpoint.hpp"
-#include "reckon/io/resume.hpp"
 #include "reckon/io/run_folder.hpp"
 #include "reckon/io/run_outputs.hpp"
 #include "reckon/io/run_record.hpp"
-#include "reckon/io/scene_writer.hpp"
+#include "reckon/io/run_start.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
@@ -35,77 +31,12 @@ double seconds_since(Clock::time_point start) {
 constexpr std::uint64_t rest_interval_without_history = 100;  // steps
 constexpr double log_interval = 60;                           // [s]
 
-/// The scene with its time step as it came out, and with its number of steps if there is one.
-std::string resolved_scene(const SceneConfig& config, const PreparedScene& prepared,
-                           std::optional<std::uint64_t> steps) {
-  SceneConfig resolved = config;
-  resolved.time.step = prepared.time_step.step;
-  resolved.time.duration.reset();
-  resolved.time.steps = steps;
-  return write_scene(resolved);
-}
-
-/// A checkpoint of the run before its first step.
-Checkpoint first_checkpoint(const LoadedScene& scene, const PreparedScene& prepared) {
-  Checkpoint checkpoint;
-  checkpoint.state = prepared.initial;
-  checkpoint.time_step = prepared.time_step.step;
-  // Without its length: a run that is extended must leave the same checkpoints as a long one.
-  checkpoint.scene = resolved_scene(scene.config, prepared, std::nullopt);
-  for (const Shape& shape : *scene.shapes) {
-    checkpoint.shape_digests.push_back(shape_digest(shape));
-  }
-  XxHash64 hash;
-  hash.update(std::as_bytes(std::span{scene.own_accelerations}));
-  checkpoint.acceleration_digest = hash.digest();
-  return checkpoint;
-}
-
-/// Decides between a fresh run and a resumed one, and readies the folder for it.
-struct Start {
-  Checkpoint checkpoint;
-  bool resumed{false};
-};
-
-Start ready_folder(const RunFolder& folder, const RunOptions& options, Checkpoint first,
-                   const std::function<void(const std::string&)>& note) {
-  const std::string place = folder.root().string();
-  if (options.resume && folder.holds_run()) {
-    folder.remove_leftovers();
-    std::optional<Checkpoint> found = latest_checkpoint(folder, note);
-    if (found) {
-      require_same_run(*found, first, place);
-      found->scene = std::move(first.scene);  // what is free to change may have changed
-      return {std::move(*found), true};
-    }
-    if (note) note("there is no checkpoint to resume from: the run starts anew");
-    folder.remove_run();
-    return {std::move(first), false};
-  }
-  if (!folder.has_content()) return {std::move(first), false};
-  if (!folder.holds_run()) {
-    throw Error{{.place = place,
-                 .problem = "this folder has files in it that are not of a run",
-                 .reason = {},
-                 .fix = "Give another one with --out."}};
-  }
-  if (!options.overwrite) {
-    throw Error{{.place = place,
-                 .problem = "this folder holds a run already",
-                 .reason = {},
-                 .fix = "Go on with it by --resume, replace it by --overwrite, or give another "
-                        "folder with --out."}};
-  }
-  folder.remove_run();
-  return {std::move(first), false};
-}
-
 /// One session of a run.
 class Session {
  public:
   Session(const std::string& text, const LoadedScene& scene, PreparedScene prepared,
           const std::string& resolved, std::uint64_t steps, const RunOptions& options,
-          const RunHooks& hooks, Start start)
+          const RunHooks& hooks, RunStart start)
       : hooks_{hooks},
         options_{options},
         config_{scene.config},
@@ -342,7 +273,7 @@ RunReport run_scene(const SceneReading& reading, const LoadedScene& scene,
   }
   folder.create();
   const FolderLock lock{folder.root()};
-  Start start = ready_folder(folder, options, std::move(first), hooks.note);
+  RunStart start = ready_folder(folder, options, std::move(first), hooks.note);
   folder.create_subfolders();
   const std::string resolved = resolved_scene(scene.config, prepared, steps);
   Session session{reading.text, scene, std::move(prepared), resolved, steps,

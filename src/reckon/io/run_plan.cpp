@@ -189,9 +189,9 @@ std::string plan_text(const RunPlan& plan) {
                step.given ? fmt::format(", and take {:.4g} s", step.rule_step) : std::string{}));
   line("steps",
        fmt::format("{}, {:.6g} s simulated", human_count(plan.steps), plan.simulated_time));
-  line("memory",
-       fmt::format("about {} ({} of shapes)", human_bytes(plan.memory_shapes + plan.memory_grains),
-                   human_bytes(plan.memory_shapes)));
+  line("memory", fmt::format("about {} besides the program itself ({} of shapes)",
+                             human_bytes(plan.memory_shapes + plan.memory_grains),
+                             human_bytes(plan.memory_shapes)));
   line("output", fmt::format("about {}: {} history rows, {} ParaView frames, {} checkpoint{}",
                              human_bytes(plan.output_bytes), human_count(plan.history_rows),
                              human_count(plan.frames), human_count(plan.checkpoints),

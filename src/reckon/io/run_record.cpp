@@ -3,6 +3,7 @@
 #include "reckon/io/run_record.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,6 +18,16 @@
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
+
+namespace {
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace
 
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
@@ -71,6 +82,7 @@ void write_run_record(const std::filesystem::path& path, const RunRecord& record
   json.value("output_s", record.output_seconds);
   json.value("steps_per_s", record.wall_seconds > 0 ? steps_done / record.wall_seconds : 0);
   json.value("list_rebuilds", record.list_rebuilds);
+  json.value("peak_memory_bytes", peak_memory());
   json.value("threads", thread_count());
   json.value("host", host);
   json.end();
