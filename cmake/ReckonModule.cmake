@@ -35,7 +35,11 @@ function(reckon_test name)
     set(labels LABELS "${labels}")
   endif()
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
-    PROPERTIES ${labels} ENVIRONMENT "OMP_WAIT_POLICY=passive")  # tests share the cores
+    PROPERTIES ${labels}
+    ENVIRONMENT "OMP_WAIT_POLICY=passive"  # tests share the cores
+    # Builds that test at the same time must not write into each other's temporary files. (As a
+    # modification, since a list of two variables would fall apart on its way to ctest.)
+    ENVIRONMENT_MODIFICATION "TEST_TMPDIR=set:${CMAKE_CURRENT_BINARY_DIR}/")
   if(threads IN_LIST arg_LABELS)
     if(NOT TARGET threaded_tests)
       add_custom_target(threaded_tests)
