@@ -60,14 +60,13 @@ void WallContacts::rebuild(std::span<const GrainFrame> frames, double skin) {
   forces_.assign(candidates_.size(), {});
 }
 
-bool WallContacts::follow(std::span<const GrainFrame> frames) {
+void WallContacts::follow_walls() {
   seen_displacement_.resize(walls_.size());
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     travelled_[w] += norm(poses_[w].displacement - seen_displacement_[w]);
     travelled_[w] *= 1 + 4 * std::numeric_limits<double>::epsilon();
     seen_displacement_[w] = poses_[w].displacement;
   }
-  return meter_.follow(frames);
 }
 
 double WallContacts::evaluate_candidate(std::size_t c, const GrainFrame& grain, double time_step,
@@ -102,18 +101,17 @@ double WallContacts::evaluate_candidate(std::size_t c, const GrainFrame& grain, 
   return old_springs.empty() ? wake : wake_always;
 }
 
-void WallContacts::evaluate(std::span<const GrainFrame> frames, double time_step) {
-  bool use_near_lists = false;
-  if (engine_ == ContactEngine::near) {
-    use_near_lists = follow(frames);
-    if (!use_near_lists) {
-      std::fill(wake_.begin(), wake_.end(), wake_always);
-      std::fill(near_.begin(), near_.end(), NearWall{});
-    }
+void WallContacts::evaluate(std::span<const GrainFrame> frames, const MotionMeter& meter,
+                            double time_step) {
+  follow_walls();
+  const bool use_near_lists = engine_ == ContactEngine::near && meter.trustworthy();
+  if (!use_near_lists) {
+    std::fill(wake_.begin(), wake_.end(), wake_always);
+    for (NearWall& list : near_) list = {};
   }
   store_.begin_writing(thread_count());
   scratch_.resize(static_cast<std::size_t>(thread_count()));
-  const std::span<const double> travelled = meter_.travelled();
+  const std::span<const double> travelled = meter.travelled();
   parallel_for(candidates_.size(), 32, [&](std::size_t c) {
     const Candidate& candidate = candidates_[c];
     const double odometer =

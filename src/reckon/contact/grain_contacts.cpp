@@ -64,6 +64,7 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
   // A sleeping pair writes neither.
   new_springs_of_pair_.assign(pairs_.size(), {});
   forces_.assign(pairs_.size(), {});
+  acts_.assign(pairs_.size(), 0);
   pairs_of_grain_ = index_pairs(pairs_, slot_count);
 }
 
@@ -129,9 +130,11 @@ void GrainContacts::evaluate_listed(const Law& law, std::size_t p,
   // A pair that lets go of springs is looked at once more, so that both buffers are empty when it
   // falls asleep.
   wake_[p] = old_springs.empty() ? wake : wake_always;
+  const PairForce& force = forces_[p];
+  acts_[p] = force.touching > 0 || force.friction != 0 || force.dashpot != 0 ? 1 : 0;
   ++scratch.counters.awake;
-  scratch.counters.touching_nodes += forces_[p].touching;
-  if (forces_[p].touching > 0) ++scratch.counters.touching_pairs;
+  scratch.counters.touching_nodes += force.touching;
+  if (force.touching > 0) ++scratch.counters.touching_pairs;
 }
 
 template <ContactLaw Law>
@@ -178,7 +181,8 @@ void GrainContacts::prefetch(std::size_t p, std::span<const GrainFrame> frames) 
 void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_step) {
   bool use_near_lists = false;
   if (engine_ == ContactEngine::near) {
-    use_near_lists = meter_.follow(frames);
+    meter_.follow(frames);
+    use_near_lists = meter_.trustworthy();
     if (!use_near_lists) forget_near_lists();
   }
   store_.begin_writing(thread_count());
@@ -201,6 +205,7 @@ void GrainContacts::forget_near_lists() {
 void GrainContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const {
   parallel_for(loads.size(), 64, [&](std::size_t slot) {
     for (const auto& entry : pairs_of_grain_.of(slot)) {
+      if (acts_[entry.pair] == 0) continue;
       const PairForce& pair = forces_[entry.pair];
       // A pair that is listed but does not touch adds nothing, not even a signed zero: the answer
       // must not depend on the list.
