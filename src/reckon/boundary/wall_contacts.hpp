@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -75,7 +76,7 @@ class WallContacts {
   };
   void follow_walls();
   double evaluate_candidate(std::size_t c, const GrainFrame& grain, double time_step,
-                            bool use_near_lists, double odometer, Scratch& scratch);
+                            std::optional<double> odometer, Scratch& scratch);
 
   std::vector<Wall> walls_;
   ContactEngine engine_;
