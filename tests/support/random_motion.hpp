@@ -22,9 +22,9 @@ class RandomMotion {
     last_shift_ = drift + Vec3{component(stride), component(stride), component(stride)};
     frame_.position += last_shift_;
     const double half = 0.5 * stride / frame_.shape->bounding_radius;
-    orientation_ = normalized(
-        normalized(Quaternion{1, component(half), component(half), component(half)}) *
-        orientation_);
+    orientation_ =
+        normalized(normalized(Quaternion{1, component(half), component(half), component(half)}) *
+                   orientation_);
     frame_.rotation = rotation_matrix(orientation_);
   }
 

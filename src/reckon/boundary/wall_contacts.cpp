@@ -91,10 +91,9 @@ double WallContacts::evaluate_candidate(std::size_t c, const GrainFrame& grain, 
     const RigidMotion wall_motion{grain.position, poses_[w].velocity, {}};
     std::visit(
         [&](const auto& law) {
-          forces_[c] =
-              force_of(respond(law, context, grain.position, grain_motion, wall_motion, touches,
-                               old_springs, *grain.shape, false, 1, arena),
-                       poses_[w].velocity, time_step);
+          forces_[c] = force_of(respond(law, context, grain.position, grain_motion, wall_motion,
+                                        touches, old_springs, *grain.shape, false, 1, arena),
+                                poses_[w].velocity, time_step);
         },
         walls_[w].law);
   });

@@ -15,7 +15,6 @@
 namespace reckon {
 namespace {
 
-
 RigidMotion motion_of(const GrainFrame& grain) {
   return {grain.position, grain.velocity, grain.angular_velocity_world};
 }
@@ -141,9 +140,8 @@ void GrainContacts::evaluate_pairs(const Law& law, std::span<const GrainFrame> f
     return scratch_[static_cast<std::size_t>(thread_index())];
   };
   if (!use_near_lists) {
-    parallel_for(pairs_.size(), 32, [&](std::size_t p) {
-      evaluate_listed(law, p, frames, time_step, {}, scratch());
-    });
+    parallel_for(pairs_.size(), 32,
+                 [&](std::size_t p) { evaluate_listed(law, p, frames, time_step, {}, scratch()); });
     return;
   }
   const std::span<const double> travelled = meter_.travelled();

@@ -56,7 +56,8 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
   const Vec3 center_offset = master_center - slave.center;
   auto old = old_springs.begin();
   const auto let_go = [&](const NodeSpring& spring) {
-    sum.friction += law.stored_shear_energy(spring.shear_force, master_shape.node_area[spring.node]);
+    sum.friction +=
+        law.stored_shear_energy(spring.shear_force, master_shape.node_area[spring.node]);
   };
   for (const Touch& touch : touches) {
     const double steepness = norm(touch.gradient_world);

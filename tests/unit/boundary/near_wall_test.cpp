@@ -38,8 +38,8 @@ TEST(NearWall, MissesNoTouchWhateverTheMotion) {
     for (int step = 0; step < 400; ++step) {
       const double stride = std::exp2(random.uniform(-17, -1));
       const double from_wall = distance(wall, pose, frames[0].position);
-      const Vec3 away = std::visit([&](const auto& s) { return s.gradient(frames[0].position); },
-                                   wall.surface);
+      const Vec3 away =
+          std::visit([&](const auto& s) { return s.gradient(frames[0].position); }, wall.surface);
       motion.move(stride, (from_wall > 1 ? -stride : from_wall < 0.3 ? stride : 0) * away);
       const Vec3 shift{random.uniform(-0.1, 0.1) * stride, 0, 0};
       pose.displacement += shift;

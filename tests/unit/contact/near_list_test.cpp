@@ -59,7 +59,9 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
       const double stride = size * std::exp2(random.uniform(-17, -1));
       const Vec3 towards = frames[1].position - frames[0].position;
       // Held near contact: drawn together when apart, pushed apart when deep.
-      const double pull = norm(towards) > 0.95 * contact ? 1 : norm(towards) < 0.5 * contact ? -1 : 0;
+      const double pull = norm(towards) > 0.95 * contact  ? 1
+                          : norm(towards) < 0.5 * contact ? -1
+                                                          : 0;
       a.move(stride, pull * stride * normalized(towards));
       if (random.uniform() < 0.3) {
         b.follow(a.last_shift());

@@ -61,9 +61,8 @@ TEST(PairList, LayersMatchBruteForceForUnequalSizes) {
     for (double& radius : cloud.radii) radius = std::exp2(power(random));
     cloud.radii[7] = 0;
     for (const double skin : {0.0, 0.01, 0.5}) {
-      expect_same(
-          find_pairs(cloud.ids, cloud.positions, cloud.radii, skin, 400),
-          find_pairs_brute_force(cloud.ids, cloud.positions, cloud.radii, skin, 400));
+      expect_same(find_pairs(cloud.ids, cloud.positions, cloud.radii, skin, 400),
+                  find_pairs_brute_force(cloud.ids, cloud.positions, cloud.radii, skin, 400));
     }
   }
 }
