@@ -37,17 +37,23 @@ Cost measure(Simulation& simulation, std::uint64_t steps) {
   const auto part = [&](double PhaseTimes::*phase) {
     return (after.*phase - before.*phase) * scale;
   };
-  return {(processor_seconds() - start) * scale,
-          {part(&PhaseTimes::frames), part(&PhaseTimes::lists), part(&PhaseTimes::grain_contacts),
-           part(&PhaseTimes::wall_contacts), part(&PhaseTimes::loads), part(&PhaseTimes::motion)}};
+  const double total = (processor_seconds() - start) * scale;
+  return {total,
+          {.frames = part(&PhaseTimes::frames),
+           .lists = part(&PhaseTimes::lists),
+           .grain_contacts = part(&PhaseTimes::grain_contacts),
+           .wall_contacts = part(&PhaseTimes::wall_contacts),
+           .loads = part(&PhaseTimes::loads),
+           .motion = part(&PhaseTimes::motion),
+           .agreement = part(&PhaseTimes::agreement)}};
 }
 
 void print(const char* name, const Cost& cost) {
   fmt::print(
       "{:6} {:9.0f} | frames {:5.0f}  lists {:5.0f}  grains {:8.0f}  walls {:6.0f}  loads "
-      "{:5.0f}  motion {:5.0f}\n",
+      "{:5.0f}  motion {:5.0f}  agreement {:5.0f}\n",
       name, cost.total, cost.phases.frames, cost.phases.lists, cost.phases.grain_contacts,
-      cost.phases.wall_contacts, cost.phases.loads, cost.phases.motion);
+      cost.phases.wall_contacts, cost.phases.loads, cost.phases.motion, cost.phases.agreement);
 }
 
 void print(const ContactCounters& before, const ContactCounters& after, std::uint64_t list_rebuilds,

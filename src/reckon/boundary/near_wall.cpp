@@ -66,82 +66,72 @@ double NearWall::find_touches(const GrainFrame& grain, const Wall& wall, const W
                               ContactCounters& counters) {
   const double margin = rounding_margin(grain, wall, pose, odometer);
   const double from_center = distance(wall, pose, grain.position);
-  if (!(from_center < grain.shape->bounding_radius)) {
-    return odometer + std::max(from_center - grain.shape->bounding_radius - margin, 0.0);
-  }
-  if (!(odometer < complete_until_)) {
+  const double radius = list_.exists() ? list_.partner().radius : grain.shape->bounding_radius;
+  if (!(from_center < radius)) return odometer + std::max(from_center - radius - margin, 0.0);
+  if (!list_.complete_at(odometer)) {
     ++counters.lists_checked;
-    if (!still_complete(grain, pose, odometer, margin)) {
-      make(grain, wall, pose, odometer, margin, counters);
-    }
+    const Pose now{grain.position - pose.displacement, grain.rotation};
+    if (!still_complete(now, odometer, margin)) make(grain, wall, now, odometer, margin, counters);
   }
-  double earliest = complete_until_;
-  std::visit(
+  return std::visit(
       [&](const auto& surface) {
         const Vec3 center = grain.position - pose.displacement;
-        for (std::size_t n = 0; n < nodes_.size(); ++n) {
-          if (!(odometer < wake_[n])) {
-            ++counters.tested_nodes;
-            const Node& node = nodes_[n];
-            const double phi = test_node(grain, wall, surface, center, node.node, node.place_body,
-                                         node.area, touches);
-            wake_[n] = phi < 0 ? wake_always : odometer + std::max(phi - margin, 0.0);
-          }
-          earliest = std::min(earliest, wake_[n]);
-        }
+        return list_.look(odometer, touches, [&](Node& node) {
+          ++counters.tested_nodes;
+          const double phi = test_node(grain, wall, surface, center, node.node, node.place_body,
+                                       node.area, touches);
+          node.wake = phi < 0 ? wake_always : odometer + std::max(phi - margin, 0.0);
+          return phi < 0;
+        });
       },
       wall.surface);
-  return earliest;
 }
 
-bool NearWall::still_complete(const GrainFrame& grain, const WallPose& pose, double odometer,
-                              double margin) {
-  if (rest_ < 0) return false;
-  const double moved =
-      norm(grain.position - pose.displacement - offset_when_made_) +
-      grain.shape->bounding_radius * turn_distance(rotation_when_made_, grain.rotation);
-  if (!(moved < list_lifetime * rest_)) return false;
-  complete_until_ = odometer + (rest_ - moved) - margin;
+bool NearWall::still_complete(const Pose& pose, double odometer, double margin) {
+  if (!list_.exists()) return false;
+  const Pose& made = list_.reference();
+  const double moved = norm(pose.offset - made.offset) +
+                       list_.partner().radius * turn_distance(made.rotation, pose.rotation);
+  if (!(moved < list_lifetime * list_.rest())) return false;
+  list_.set_complete_until(odometer + (list_.rest() - moved) - margin);
   return true;
 }
 
-void NearWall::make(const GrainFrame& grain, const Wall& wall, const WallPose& pose,
-                    double odometer, double margin, ContactCounters& counters) {
+void NearWall::make(const GrainFrame& grain, const Wall& wall, const Pose& pose, double odometer,
+                    double margin, ContactCounters& counters) {
   const ShapeView& shape = *grain.shape;
   const double skin = list_skin(shape);
-  ++counters.lists_made;
-  wake_.clear();
-  nodes_.clear();
-  rest_ = wake_never;
+  double rest = wake_never;
+  thread_local std::vector<Node> found;
+  found.clear();
   std::visit(
       [&](const auto& surface) {
-        const Vec3 center = grain.position - pose.displacement;
         const auto clearance = [&](const Vec3& place_body) {
-          return surface.distance(center + grain.rotation * place_body) - margin;
+          return surface.distance(pose.offset + pose.rotation * place_body) - margin;
         };
         for (const NodeCluster& cluster : shape.clusters) {
           const double bound = clearance(cluster.center_body) - cluster.radius;
           if (bound > skin) {
-            rest_ = std::min(rest_, bound);
+            rest = std::min(rest, bound);
             continue;
           }
           for (NodeIndex n = cluster.first; n < cluster.first + cluster.count; ++n) {
             ++counters.searched_nodes;
             const double node_bound = clearance(shape.node(n));
             if (node_bound > skin) {
-              rest_ = std::min(rest_, node_bound);
+              rest = std::min(rest, node_bound);
               continue;
             }
-            wake_.push_back(odometer + std::max(node_bound, 0.0));
-            nodes_.push_back({shape.node(n), shape.node_area[n], n});
+            found.push_back(
+                {shape.node(n), shape.node_area[n], odometer + std::max(node_bound, 0.0), n});
           }
         }
       },
       wall.surface);
-  counters.listed_nodes += nodes_.size();
-  offset_when_made_ = grain.position - pose.displacement;
-  rotation_when_made_ = grain.rotation;
-  complete_until_ = odometer + rest_;
+  ++counters.lists_made;
+  counters.listed_nodes += found.size();
+  list_.restart({shape.bounding_radius}, pose, odometer, rest, found.size());
+  for (std::size_t n = 0; n < found.size(); ++n) list_.set_node(n, found[n]);
 }
 
 }  // namespace reckon

@@ -7,37 +7,42 @@
 #include "reckon/boundary/wall.hpp"
 #include "reckon/contact/contact_counters.hpp"
 #include "reckon/contact/touch.hpp"
+#include "reckon/contact/wake_list.hpp"
 #include "reckon/grains/grain_frame.hpp"
 
 namespace reckon {
 
-/// The nodes of one grain that are near one wall, and when each must be looked at again: what
-/// NearList is for two grains. A wall's distance has slope one, so it is a clearance as it stands.
-/// The odometer is what the grain and the wall have travelled together.
+/// The nodes of one grain that are near one wall: what NearList is for two grains. A wall's
+/// distance has slope one, so it is a clearance as it stands. The odometer is what the grain and
+/// the wall have travelled together.
 class NearWall {
  public:
-  /// As NearList::find_touches, and the same bits as find_wall_touches.
+  /// As NearList::find_touches; the same bits as find_wall_touches.
   double find_touches(const GrainFrame& grain, const Wall& wall, const WallPose& pose,
                       double odometer, std::vector<Touch>& touches, ContactCounters& counters);
 
+  void prefetch() const { list_.prefetch(); }
+
  private:
+  struct Grain {
+    double radius{0};  // bounding [m]
+  };
+  struct Pose {
+    Vec3 offset;  // the grain's centre from the wall's displacement [m]
+    Mat3 rotation;
+  };
   struct Node {
-    Vec3 place_body;  ///< [m]
-    double area{0};   ///< [m^2]
+    Vec3 place_body;  // [m]
+    double area{0};   // [m^2]
+    double wake{0};   // odometer reading
     NodeIndex node{0};
   };
 
-  [[nodiscard]] bool still_complete(const GrainFrame& grain, const WallPose& pose, double odometer,
-                                    double margin);
-  void make(const GrainFrame& grain, const Wall& wall, const WallPose& pose, double odometer,
+  [[nodiscard]] bool still_complete(const Pose& pose, double odometer, double margin);
+  void make(const GrainFrame& grain, const Wall& wall, const Pose& pose, double odometer,
             double margin, ContactCounters& counters);
 
-  double complete_until_{0};  // odometer reading
-  double rest_{-1};           // clearance of all other nodes when made; < 0: not made yet [m]
-  Vec3 offset_when_made_;     // the grain's centre from the wall's displacement [m]
-  Mat3 rotation_when_made_;
-  std::vector<double> wake_;  // per node of the list: odometer reading
-  std::vector<Node> nodes_;   // in node order
+  WakeList<Grain, Pose, Node> list_;
 };
 
 /// The plain finder: every node of the grain, in order, against the wall.

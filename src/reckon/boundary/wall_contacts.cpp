@@ -9,6 +9,7 @@
 
 #include "reckon/contact/near_skin.hpp"
 #include "reckon/contact/pair_kernel.hpp"
+#include "reckon/contact/visit_awake.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
@@ -60,25 +61,24 @@ void WallContacts::rebuild(std::span<const GrainFrame> frames, double skin) {
   forces_.assign(candidates_.size(), {});
 }
 
-bool WallContacts::follow(std::span<const GrainFrame> frames) {
+void WallContacts::follow_walls() {
   seen_displacement_.resize(walls_.size());
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     travelled_[w] += norm(poses_[w].displacement - seen_displacement_[w]);
     travelled_[w] *= 1 + 4 * std::numeric_limits<double>::epsilon();
     seen_displacement_[w] = poses_[w].displacement;
   }
-  return meter_.follow(frames);
 }
 
 double WallContacts::evaluate_candidate(std::size_t c, const GrainFrame& grain, double time_step,
-                                        bool use_near_lists, double odometer, Scratch& scratch) {
+                                        std::optional<double> odometer, Scratch& scratch) {
   const std::uint32_t w = candidates_[c].wall.get();
   const auto old_springs = store_.read(springs_of_candidate_[c]);
   auto& touches = scratch.touches;
   touches.clear();
   double wake = wake_always;
-  if (use_near_lists) {
-    wake = near_[c].find_touches(grain, walls_[w], poses_[w], odometer, touches, scratch.counters);
+  if (odometer) {
+    wake = near_[c].find_touches(grain, walls_[w], poses_[w], *odometer, touches, scratch.counters);
   } else {
     find_wall_touches(grain, walls_[w], poses_[w], touches);
   }
@@ -91,10 +91,9 @@ double WallContacts::evaluate_candidate(std::size_t c, const GrainFrame& grain, 
     const RigidMotion wall_motion{grain.position, poses_[w].velocity, {}};
     std::visit(
         [&](const auto& law) {
-          forces_[c] =
-              force_of(respond(law, context, grain.position, grain_motion, wall_motion, touches,
-                               old_springs, grain.shape->node_area, false, 1, arena),
-                       poses_[w].velocity, time_step);
+          forces_[c] = force_of(respond(law, context, grain.position, grain_motion, wall_motion,
+                                        touches, old_springs, *grain.shape, false, 1, arena),
+                                poses_[w].velocity, time_step);
         },
         walls_[w].law);
   });
@@ -102,30 +101,37 @@ double WallContacts::evaluate_candidate(std::size_t c, const GrainFrame& grain, 
   return old_springs.empty() ? wake : wake_always;
 }
 
-void WallContacts::evaluate(std::span<const GrainFrame> frames, double time_step) {
-  bool use_near_lists = false;
-  if (engine_ == ContactEngine::near) {
-    use_near_lists = follow(frames);
-    if (!use_near_lists) {
-      std::fill(wake_.begin(), wake_.end(), wake_always);
-      std::fill(near_.begin(), near_.end(), NearWall{});
-    }
+void WallContacts::evaluate(std::span<const GrainFrame> frames, const MotionMeter& meter,
+                            double time_step) {
+  follow_walls();
+  const bool use_near_lists = engine_ == ContactEngine::near && meter.trustworthy();
+  if (!use_near_lists) {
+    std::fill(wake_.begin(), wake_.end(), wake_always);
+    for (NearWall& list : near_) list = {};
   }
   store_.begin_writing(thread_count());
   scratch_.resize(static_cast<std::size_t>(thread_count()));
-  const std::span<const double> travelled = meter_.travelled();
-  parallel_for(candidates_.size(), 32, [&](std::size_t c) {
-    const Candidate& candidate = candidates_[c];
-    const double odometer =
-        use_near_lists ? travelled[candidate.slot] + travelled_[candidate.wall.get()] : 0;
-    if (odometer < wake_[c]) return;
+  const auto evaluate_one = [&](std::size_t c, std::optional<double> odometer) {
     Scratch& mine = scratch_[static_cast<std::size_t>(thread_index())];
-    wake_[c] =
-        evaluate_candidate(c, frames[candidate.slot], time_step, use_near_lists, odometer, mine);
+    wake_[c] = evaluate_candidate(c, frames[candidates_[c].slot], time_step, odometer, mine);
     ++mine.counters.awake;
     mine.counters.touching_nodes += forces_[c].touching;
     if (forces_[c].touching > 0) ++mine.counters.touching_pairs;
-  });
+  };
+  if (use_near_lists) {
+    visit_awake(
+        wake_,
+        [&](std::size_t c) {
+          return meter.travelled()[candidates_[c].slot] + travelled_[candidates_[c].wall.get()];
+        },
+        [&](std::size_t c) {
+          near_[c].prefetch();
+          prefetch_frame(frames[candidates_[c].slot]);
+        },
+        evaluate_one);
+  } else {
+    parallel_for(candidates_.size(), 32, [&](std::size_t c) { evaluate_one(c, {}); });
+  }
   ++counters_.evaluations;
   counters_.pairs += candidates_.size();
   for (Scratch& scratch : scratch_) counters_ += std::exchange(scratch.counters, {});

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,7 +45,8 @@ class WallContacts {
   /// Places the walls for one step. To be called before rebuild and evaluate.
   void move_walls(std::uint64_t step, double time_step);
   void rebuild(std::span<const GrainFrame> frames, double skin);
-  void evaluate(std::span<const GrainFrame> frames, double time_step);
+  /// `meter` has followed these frames, slot by slot; the plain engine does not look at it.
+  void evaluate(std::span<const GrainFrame> frames, const MotionMeter& meter, double time_step);
   void add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const;
   void commit();
 
@@ -72,9 +74,9 @@ class WallContacts {
     std::vector<Touch> touches;
     ContactCounters counters;
   };
-  [[nodiscard]] bool follow(std::span<const GrainFrame> frames);
+  void follow_walls();
   double evaluate_candidate(std::size_t c, const GrainFrame& grain, double time_step,
-                            bool use_near_lists, double odometer, Scratch& scratch);
+                            std::optional<double> odometer, Scratch& scratch);
 
   std::vector<Wall> walls_;
   ContactEngine engine_;
@@ -86,8 +88,7 @@ class WallContacts {
   std::vector<WallForce> forces_;
   SpringStore store_;
 
-  MotionMeter meter_;
-  std::vector<Vec3> seen_displacement_;  // per wall, at the last follow()
+  std::vector<Vec3> seen_displacement_;  // per wall, at the last evaluate()
   std::vector<double> travelled_;        // per wall [m]
   std::vector<double> wake_;             // per candidate
   std::vector<NearWall> near_;           // per candidate

@@ -3,21 +3,17 @@
 #include "reckon/contact/grain_contacts.hpp"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <map>
 #include <type_traits>
 #include <utility>
 
 #include "reckon/contact/near_skin.hpp"
 #include "reckon/contact/pair_kernel.hpp"
+#include "reckon/contact/visit_awake.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
 namespace {
-
-constexpr std::size_t pairs_per_task = 128;
-constexpr std::size_t prefetch_distance = 3;
 
 RigidMotion motion_of(const GrainFrame& grain) {
   return {grain.position, grain.velocity, grain.angular_velocity_world};
@@ -64,6 +60,7 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
   // A sleeping pair writes neither.
   new_springs_of_pair_.assign(pairs_.size(), {});
   forces_.assign(pairs_.size(), {});
+  acts_.assign(pairs_.size(), 0);
   pairs_of_grain_ = index_pairs(pairs_, slot_count);
 }
 
@@ -88,7 +85,7 @@ PairForce GrainContacts::evaluate_pair(const Law& law, const GrainFrame& a, cons
     if (touches.empty() && old.empty()) return;
     add_directed(pair,
                  respond(law, context, master.position, motion_of(master), motion_of(slave),
-                         touches, old, master.shape->node_area, master_is_b, weight, new_springs),
+                         touches, old, *master.shape, master_is_b, weight, new_springs),
                  master_is_b);
   };
   switch (settings_.master) {
@@ -129,56 +126,47 @@ void GrainContacts::evaluate_listed(const Law& law, std::size_t p,
   // A pair that lets go of springs is looked at once more, so that both buffers are empty when it
   // falls asleep.
   wake_[p] = old_springs.empty() ? wake : wake_always;
+  const PairForce& force = forces_[p];
+  acts_[p] = force.touching > 0 || force.friction != 0 || force.dashpot != 0 ? 1 : 0;
   ++scratch.counters.awake;
-  scratch.counters.touching_nodes += forces_[p].touching;
-  if (forces_[p].touching > 0) ++scratch.counters.touching_pairs;
+  scratch.counters.touching_nodes += force.touching;
+  if (force.touching > 0) ++scratch.counters.touching_pairs;
 }
 
 template <ContactLaw Law>
 void GrainContacts::evaluate_pairs(const Law& law, std::span<const GrainFrame> frames,
                                    double time_step, bool use_near_lists) {
-  const std::span<const double> travelled = meter_.travelled();
-  const auto odometer = [&](std::size_t p) {
-    return travelled[pairs_[p].slot_a] + travelled[pairs_[p].slot_b];
+  const auto scratch = [&]() -> Scratch& {
+    return scratch_[static_cast<std::size_t>(thread_index())];
   };
-  const std::size_t tasks = (pairs_.size() + pairs_per_task - 1) / pairs_per_task;
-  parallel_for(tasks, 1, [&](std::size_t task) {
-    Scratch& mine = scratch_[static_cast<std::size_t>(thread_index())];
-    const std::size_t first = task * pairs_per_task;
-    const std::size_t last = std::min(first + pairs_per_task, pairs_.size());
-    if (!use_near_lists) {
-      for (std::size_t p = first; p < last; ++p) {
-        evaluate_listed(law, p, frames, time_step, {}, mine);
-      }
-      return;
-    }
-    // Who is awake is known before the first is evaluated, so memory can be asked ahead.
-    std::array<std::size_t, pairs_per_task> awake;
-    std::size_t count = 0;
-    for (std::size_t p = first; p < last; ++p) {
-      if (!(odometer(p) < wake_[p])) awake[count++] = p;
-    }
-    for (std::size_t n = 0; n < count; ++n) {
-      if (n + prefetch_distance < count) prefetch(awake[n + prefetch_distance], frames);
-      evaluate_listed(law, awake[n], frames, time_step, odometer(awake[n]), mine);
-    }
-  });
+  if (!use_near_lists) {
+    parallel_for(pairs_.size(), 32,
+                 [&](std::size_t p) { evaluate_listed(law, p, frames, time_step, {}, scratch()); });
+    return;
+  }
+  const std::span<const double> travelled = meter_.travelled();
+  visit_awake(
+      wake_,
+      [&](std::size_t p) { return travelled[pairs_[p].slot_a] + travelled[pairs_[p].slot_b]; },
+      [&](std::size_t p) { prefetch(p, frames); },
+      [&](std::size_t p, double odometer) {
+        evaluate_listed(law, p, frames, time_step, odometer, scratch());
+      });
 }
 
 void GrainContacts::prefetch(std::size_t p, std::span<const GrainFrame> frames) const {
   near_[p].of_a.prefetch();
   near_[p].of_b.prefetch();
-  const auto* const frame = reinterpret_cast<const char*>(&frames[pairs_[p].slot_b]);
-  for (std::size_t line = 0; line < sizeof(GrainFrame); line += 64) {
-    __builtin_prefetch(frame + line);
-  }
+  prefetch_frame(frames[pairs_[p].slot_b]);
   __builtin_prefetch(&forces_[p], 1);
+  __builtin_prefetch(reinterpret_cast<const char*>(&forces_[p]) + 64, 1);
 }
 
 void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_step) {
   bool use_near_lists = false;
   if (engine_ == ContactEngine::near) {
-    use_near_lists = meter_.follow(frames);
+    meter_.follow(frames);
+    use_near_lists = meter_.trustworthy();
     if (!use_near_lists) forget_near_lists();
   }
   store_.begin_writing(thread_count());
@@ -201,6 +189,7 @@ void GrainContacts::forget_near_lists() {
 void GrainContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const {
   parallel_for(loads.size(), 64, [&](std::size_t slot) {
     for (const auto& entry : pairs_of_grain_.of(slot)) {
+      if (acts_[entry.pair] == 0) continue;
       const PairForce& pair = forces_[entry.pair];
       // A pair that is listed but does not touch adds nothing, not even a signed zero: the answer
       // must not depend on the list.

@@ -70,6 +70,8 @@ class GrainContacts {
   [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
   [[nodiscard]] std::span<const PairForce> forces() const { return forces_; }
   [[nodiscard]] const ContactCounters& counters() const { return counters_; }
+  /// What the grains of the last evaluate() have travelled; stands still with the plain engine.
+  [[nodiscard]] const MotionMeter& meter() const { return meter_; }
 
   /// Springs of all touching pairs, sorted by (id_a, id_b).
   [[nodiscard]] std::vector<PairSprings> springs() const;
@@ -109,6 +111,7 @@ class GrainContacts {
   std::vector<SpringRange> springs_of_pair_;  // in store_, as of the last commit
   std::vector<SpringRange> new_springs_of_pair_;
   std::vector<PairForce> forces_;
+  std::vector<std::uint8_t> acts_;  // per pair: whether its force or losses are to be added
   SpringStore store_;
 
   MotionMeter meter_;

@@ -33,7 +33,7 @@ bool is_rotation(const Mat3& matrix) {
   return std::abs(squared_norm(matrix.row_x) - 1) <= squared_length_tolerance;
 }
 
-bool MotionMeter::follow(std::span<const GrainFrame> frames) {
+void MotionMeter::follow(std::span<const GrainFrame> frames) {
   const bool same_slots =
       std::equal(frames.begin(), frames.end(), seen_.begin(), seen_.end(),
                  [](const GrainFrame& frame, const Seen& seen) { return frame.id == seen.id; });
@@ -51,7 +51,7 @@ bool MotionMeter::follow(std::span<const GrainFrame> frames) {
     }
     return is_rotation(now.rotation) ? 0.0 : 1.0;
   });
-  return bad == 0;
+  trustworthy_ = bad == 0;
 }
 
 void MotionMeter::reorder(std::span<const GrainFrame> frames) {

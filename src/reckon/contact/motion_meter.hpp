@@ -28,9 +28,12 @@ namespace reckon {
 class MotionMeter {
  public:
   /// Adds the motion since the last call. Slots may hold other grains than before: a grain is
-  /// followed by its id, and one that was not there starts anew. Returns false when some frame's
-  /// matrix is no rotation: then nothing may be concluded from what was known before.
-  [[nodiscard]] bool follow(std::span<const GrainFrame> frames);
+  /// followed by its id, and one that was not there starts anew.
+  void follow(std::span<const GrainFrame> frames);
+
+  /// False when some frame's matrix is no rotation: then nothing may be concluded from what was
+  /// known before, and nothing learnt now.
+  [[nodiscard]] bool trustworthy() const { return trustworthy_; }
 
   [[nodiscard]] std::span<const double> travelled() const { return travelled_; }
 
@@ -44,6 +47,7 @@ class MotionMeter {
 
   std::vector<Seen> seen_;         // per slot, at the last call
   std::vector<double> travelled_;  // per slot [m]
+  bool trustworthy_{true};
 };
 
 }  // namespace reckon

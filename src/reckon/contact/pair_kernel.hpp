@@ -42,7 +42,7 @@ template <ContactLaw Law>
 DirectedForce respond(const Law& law, PairContext context, const Vec3& master_center,
                       const RigidMotion& master, const RigidMotion& slave,
                       std::span<const Touch> touches, std::span<const NodeSpring> old_springs,
-                      std::span<const double> node_area, bool master_is_b, double weight,
+                      const ShapeView& master_shape, bool master_is_b, double weight,
                       std::vector<NodeSpring>& new_springs) {
   DirectedForce sum;
   context.touching = static_cast<std::uint32_t>(touches.size());
@@ -56,7 +56,8 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
   const Vec3 center_offset = master_center - slave.center;
   auto old = old_springs.begin();
   const auto let_go = [&](const NodeSpring& spring) {
-    sum.friction += law.stored_shear_energy(spring.shear_force, node_area[spring.node]);
+    sum.friction +=
+        law.stored_shear_energy(spring.shear_force, master_shape.node_area[spring.node]);
   };
   for (const Touch& touch : touches) {
     const double steepness = norm(touch.gradient_world);

@@ -183,6 +183,13 @@ void describe(Visitor& v, NeighborConfig& neighbor) {
             .meaning = "Width of the zone in which pairs are kept listed, as a fraction of the "
                        "smallest bounding radius; changes speed, never results."},
            neighbor.skin);
+  constexpr std::array engines{Choice{"near", ContactEngine::near},
+                               Choice{"plain", ContactEngine::plain}};
+  v.choice({.name = "engine",
+            .meaning = "How touching nodes are found: `near` remembers which nodes are near a "
+                       "partner and for how long they cannot touch; `plain` tests every node at "
+                       "every step, many times slower. Both give the same results."},
+           neighbor.engine, engines);
 }
 
 template <class Visitor>

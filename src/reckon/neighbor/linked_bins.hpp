@@ -11,31 +11,41 @@
 
 namespace reckon {
 
-/// Linked-list binning (paper, sections 2.2 and 4). Space is cut into cubic bins at least as large
-/// as the largest reach of a pair, so partners lie in the same bin or in one of its 26 neighbours.
-/// Grains of a bin form a chain: `first` of the bin, then `next` of each grain.
+/// Linked-list binning (paper, sections 2.2 and 4) in layers (a hierarchical grid, Ogarko & Luding
+/// 2012). Layer 0 cuts space into cubic bins that hold the reach of the largest grains, layer 1
+/// into bins half as wide, and so on. A grain lives in the finest layer whose bins are as wide as
+/// twice its radius plus the skin. Of a pair, the grain of the finer layer looks up its partner:
 ///
-/// Bins live in a hash table as large as the number of grains, not in a box: there is no domain to
-/// leave, an empty space costs nothing, and memory does not grow with a grain that flies away.
+///   layer 0  |         O          |                    |    a large grain's bin
+///   layer 1  |         |          |         |          |    (nobody)
+///   layer 2  |  o |    |  o  | o  |    |    | o   |    |    small grains look among their own
+///            `-- half of 26 neighbours ---'                 layer, then in 27 bins of each coarser
+///
+/// Grains of a bin form a chain: `first` of the bin, then `next` of each grain. Bins live in a hash
+/// table as large as the number of grains, not in a box: there is no domain to leave, an empty
+/// space costs nothing, and memory does not grow with a grain that flies away.
 class LinkedBins {
  public:
-  /// `reach` bounds the distance of the centres of any pair that is to be found [m]; > 0.
-  LinkedBins(std::span<const Vec3> positions, double reach);
+  /// `skin` widens the reach of every pair [m]; positions and radii are per grain.
+  LinkedBins(std::span<const Vec3> positions, std::span<const double> radii, double skin);
 
-  /// Calls visit(partner) for every grain that shares the bin of `grain` and comes after it in the
-  /// chain, or lies in one of 13 of the 26 neighbouring bins: over all grains, each pair of
-  /// neighbours is visited exactly once.
+  /// Calls visit(partner) for grains near `grain` so that over all grains each pair whose spheres
+  /// come within the skin is visited exactly once (others may be visited too).
   template <class Visit>
-  void for_each_half_neighbor(std::uint32_t grain, Visit&& visit) const {
+  void for_each_partner(std::uint32_t grain, Visit&& visit) const {
     const Bin home = bin_[grain];
     for (std::uint32_t other = next_[grain]; other != end_of_chain; other = next_[other]) {
       if (bin_[other] == home) visit(other);
     }
     for (const auto& step : half_stencil) {
-      const Bin bin{home.x + step[0], home.y + step[1], home.z + step[2]};
-      for (std::uint32_t other = first_[slot_of(bin)]; other != end_of_chain;
-           other = next_[other]) {
-        if (bin_[other] == bin) visit(other);
+      visit_bin({home.x + step[0], home.y + step[1], home.z + step[2], home.layer}, visit);
+    }
+    for (int layer = home.layer - 1; layer >= 0; --layer) {
+      if (!layer_is_used_[static_cast<std::size_t>(layer)]) continue;
+      const Bin around = bin_in_layer(grain, layer);
+      for (int n = 0; n < 27; ++n) {
+        visit_bin({around.x + n % 3 - 1, around.y + n / 3 % 3 - 1, around.z + n / 9 - 1, layer},
+                  visit);
       }
     }
   }
@@ -43,6 +53,7 @@ class LinkedBins {
  private:
   struct Bin {
     std::int64_t x, y, z;
+    int layer;
     friend bool operator==(const Bin&, const Bin&) = default;
   };
   static constexpr std::uint32_t end_of_chain = std::numeric_limits<std::uint32_t>::max();
@@ -51,13 +62,25 @@ class LinkedBins {
       {1, 0, 0},  {-1, 1, 0}, {0, 1, 0}, {1, 1, 0},  {-1, -1, 1}, {0, -1, 1}, {1, -1, 1},
       {-1, 0, 1}, {0, 0, 1},  {1, 0, 1}, {-1, 1, 1}, {0, 1, 1},   {1, 1, 1}};
 
+  template <class Visit>
+  void visit_bin(const Bin& bin, Visit&& visit) const {
+    for (std::uint32_t other = first_[slot_of(bin)]; other != end_of_chain; other = next_[other]) {
+      if (bin_[other] == bin) visit(other);
+    }
+  }
+  [[nodiscard]] Bin bin_in_layer(std::uint32_t grain, int layer) const;
+
   [[nodiscard]] std::size_t slot_of(const Bin& bin) const {
     const auto hash = static_cast<std::uint64_t>(bin.x) * 0x9E3779B97F4A7C15U ^
                       static_cast<std::uint64_t>(bin.y) * 0xC2B2AE3D27D4EB4FU ^
-                      static_cast<std::uint64_t>(bin.z) * 0x165667B19E3779F9U;
+                      static_cast<std::uint64_t>(bin.z) * 0x165667B19E3779F9U ^
+                      static_cast<std::uint64_t>(bin.layer) * 0xD6E8FEB86659FD93U;
     return static_cast<std::size_t>(hash >> shift_);
   }
 
+  std::span<const Vec3> positions_;
+  double widest_{0};                  // bin of layer 0 [m]
+  std::vector<bool> layer_is_used_;   // by some grain
   int shift_{0};                      // 64 - log2(table size)
   std::vector<Bin> bin_;              // grain -> its bin
   std::vector<std::uint32_t> next_;   // grain -> next grain of the same table slot

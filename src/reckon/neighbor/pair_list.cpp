@@ -26,13 +26,12 @@ void sort_by_ids(std::vector<Pair>& pairs) {
 std::vector<Pair> find_pairs(std::span<const GrainId> ids, std::span<const Vec3> positions,
                              std::span<const double> radii, double skin, std::size_t owned) {
   if (ids.empty()) return {};
-  const double largest = *std::max_element(radii.begin(), radii.end());
-  const LinkedBins bins{positions, 2 * largest + skin};
+  const LinkedBins bins{positions, radii, skin};
   std::vector<std::vector<Pair>> found(static_cast<std::size_t>(thread_count()));
   parallel_for(ids.size(), 64, [&](std::size_t slot) {
     const auto grain = static_cast<std::uint32_t>(slot);
     auto& mine = found[static_cast<std::size_t>(thread_index())];
-    bins.for_each_half_neighbor(grain, [&](std::uint32_t other) {
+    bins.for_each_partner(grain, [&](std::uint32_t other) {
       if (grain >= owned && other >= owned) return;
       add_if_near(mine, ids, positions, radii, skin, grain, other);
     });

@@ -118,6 +118,7 @@ struct TimeConfig {
 
 struct NeighborConfig {
   double skin{0.1};  ///< as a fraction of the smallest bounding radius, > 0
+  ContactEngine engine{ContactEngine::near};  ///< changes speed, never results
 };
 
 struct OutputConfig {

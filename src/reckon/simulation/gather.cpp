@@ -114,8 +114,7 @@ SimulationState Simulation::state() const {
 
 std::vector<ContactRecord> Simulation::contacts() {
   bring_up_to_date();
-  grain_contacts_.evaluate(frames_, setup_.time_step);
-  wall_contacts_.evaluate(owned_frames(), setup_.time_step);
+  evaluate_contacts();
   std::vector<ContactRecord> records;
   for (std::size_t p = 0; p < grain_contacts_.pairs().size(); ++p) {
     const PairForce& force = grain_contacts_.forces()[p];

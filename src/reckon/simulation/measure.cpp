@@ -72,8 +72,7 @@ EnergyBudget budget(const Sums& sums) {
 
 Measurement Simulation::measure() {
   bring_up_to_date();
-  grain_contacts_.evaluate(frames_, setup_.time_step);
-  wall_contacts_.evaluate(owned_frames(), setup_.time_step);
+  evaluate_contacts();
   std::vector<EnergyLedger> ledgers = grains_.ledger;  // with the losses up to this very step
   sum_loads(ledgers);
 
@@ -82,13 +81,14 @@ Measurement Simulation::measure() {
   result.time = time();
   Sums sums;
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
-    const Inertia body = inertia(slot);
-    const Load load = total_load(slot);
+    const Inertia& body = inertias_[slot];
+    const Load load = total_load(slot, push_besides_gravity(slot));
     Vec3 velocity = grains_.velocity[slot];
     Vec3 spin = grains_.angular_velocity_body[slot];
     if (grains_.prescribed[slot] == 0) {
       // Velocities at the step: the mean of both half steps.
-      const Kick half = kick(grains_, slot, load, body, setup_.damping, setup_.time_step);
+      const Kick half =
+          kick(grains_, slot, frames_[slot].rotation, load, body, setup_.damping, setup_.time_step);
       velocity = 0.5 * (velocity + half.velocity);
       spin = 0.5 * (spin + half.angular_velocity_body);
       sums.net_force.add(norm(load.force));

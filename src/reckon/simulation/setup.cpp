@@ -79,6 +79,7 @@ PreparedScene prepare(const LoadedScene& scene) {
       .damping = config.body.damping,
       .time_step = prepared.time_step.step,
       .skin = config.neighbor.skin * smallest_radius,
+      .engine = config.neighbor.engine,
   };
   prepared.initial.grains = scene.grains;
   prepared.steps = config.time.steps.value_or(static_cast<std::uint64_t>(

@@ -48,11 +48,8 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
 
 void Simulation::step() {
   bring_up_to_date();
+  evaluate_contacts();
   Stopwatch watch;
-  grain_contacts_.evaluate(frames_, setup_.time_step);
-  phase_times_.grain_contacts += watch.lap();
-  wall_contacts_.evaluate(owned_frames(), setup_.time_step);
-  phase_times_.wall_contacts += watch.lap();
   sum_loads(grains_.ledger);
   phase_times_.loads += watch.lap();
   advance_grains();
@@ -73,6 +70,7 @@ void Simulation::bring_up_to_date() {
     phase_times_.migration += watch.lap();
     distribution_.list_ghosts(grains_);
     phase_times_.border += watch.lap();
+    update_inertias();
     update_frames(grains_, shapes_, setup_.density, frames_);
     add_ghost_frames();
     phase_times_.frames += watch.lap();
@@ -87,6 +85,14 @@ void Simulation::bring_up_to_date() {
   phase_times_.border += watch.lap();
   add_ghost_frames();
   phase_times_.frames += watch.lap();
+}
+
+void Simulation::update_inertias() {
+  inertias_.clear();
+  for (const ShapeId shape : grains_.shape) {
+    const MassProperties& mass = shapes_[shape.get()].mass;
+    inertias_.push_back({setup_.density * mass.volume, setup_.density * mass.inertia});
+  }
 }
 
 void Simulation::add_ghost_frames() {
@@ -109,6 +115,14 @@ void Simulation::rebuild_lists() {
   }
   lists_are_stale_ = false;
   ++list_rebuilds_;
+}
+
+void Simulation::evaluate_contacts() {
+  Stopwatch watch;
+  grain_contacts_.evaluate(frames_, setup_.time_step);
+  phase_times_.grain_contacts += watch.lap();
+  wall_contacts_.evaluate(owned_frames(), grain_contacts_.meter(), setup_.time_step);
+  phase_times_.wall_contacts += watch.lap();
 }
 
 /// What a grain costs its rank: itself, and its share of the pairs it is in.
@@ -153,42 +167,41 @@ void Simulation::sum_loads(std::span<EnergyLedger> ledgers) {
   wall_contacts_.add_loads(contact_loads_, ledgers);
 }
 
-Inertia Simulation::inertia(std::size_t slot) const {
-  const MassProperties& shape = shapes_[grains_.shape[slot].get()].mass;
-  return {setup_.density * shape.volume, setup_.density * shape.inertia};
+/// Acceleration by body forces other than gravity [m/s^2].
+Vec3 Simulation::push_besides_gravity(std::size_t slot) const {
+  return setup_.body_force.acceleration_besides_gravity(grains_.id[slot], step_);
 }
 
-Load Simulation::total_load(std::size_t slot) const {
-  const Vec3 acceleration = setup_.body_force.gravity +
-                            setup_.body_force.acceleration_besides_gravity(grains_.id[slot], step_);
+Load Simulation::total_load(std::size_t slot, const Vec3& push) const {
   Load load = contact_loads_[slot];
-  load.force += inertia(slot).mass * acceleration;
+  load.force += inertias_[slot].mass * (setup_.body_force.gravity + push);
   return load;
 }
 
 void Simulation::advance_grains() {
   const double dt = setup_.time_step;
   parallel_for(grains_.size(), 64, [&](std::size_t slot) {
-    const Load load = total_load(slot);
-    const Inertia body = inertia(slot);
+    const Vec3 push = push_besides_gravity(slot);
+    const Load load = total_load(slot, push);
+    const Inertia& body = inertias_[slot];
+    const Mat3& rotation = frames_[slot].rotation;
     const Vec3 velocity_before = grains_.velocity[slot];
     const Vec3 spin_before = grains_.angular_velocity_body[slot];
     EnergyLedger& ledger = grains_.ledger[slot];
     if (grains_.prescribed[slot] != 0) {
       // What holds the grain to its course supplies the opposite of its load.
-      const Vec3 spin_world = rotation_matrix(grains_.orientation[slot]) * spin_before;
+      const Vec3 spin_world = rotation * spin_before;
       ledger.wall_work -= (dot(load.force, velocity_before) + dot(load.moment, spin_world)) * dt;
       drift(grains_, slot, {velocity_before, spin_before, {}}, dt);
       return;
     }
-    const Kick half = kick(grains_, slot, load, body, setup_.damping, dt);
+    const Kick half = kick(grains_, slot, rotation, load, body, setup_.damping, dt);
     const Vec3 velocity = 0.5 * (velocity_before + half.velocity);
     const Vec3 spin = 0.5 * (spin_before + half.angular_velocity_body);
     ledger.damping +=
         setup_.damping * dt *
         (body.mass * squared_norm(velocity) + dot(hadamard(body.moments, spin), spin));
-    const Vec3 pushed = setup_.body_force.acceleration_besides_gravity(grains_.id[slot], step_);
-    ledger.body_work += body.mass * dot(pushed, velocity) * dt;
+    ledger.body_work += body.mass * dot(push, velocity) * dt;
     drift(grains_, slot, half, dt);
   });
 }

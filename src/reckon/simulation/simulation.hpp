@@ -82,12 +82,16 @@ class Simulation {
   [[nodiscard]] const PhaseTimes& phase_times() const { return phase_times_; }
   [[nodiscard]] const GrainContacts& grain_contacts() const { return grain_contacts_; }
   [[nodiscard]] const WallContacts& wall_contacts() const { return wall_contacts_; }
-  [[nodiscard]] double mass(std::size_t slot) const { return inertia(slot).mass; }
+  [[nodiscard]] double mass(std::size_t slot) const {
+    return setup_.density * shapes_[grains_.shape[slot].get()].mass.volume;
+  }
 
  private:
   void bring_up_to_date();
+  void update_inertias();
   void add_ghost_frames();
   void rebuild_lists();
+  void evaluate_contacts();
   [[nodiscard]] std::span<const GrainFrame> owned_frames() const {
     return std::span{frames_}.first(grains_.size());
   }
@@ -100,8 +104,8 @@ class Simulation {
   [[nodiscard]] double farthest_motion_since_listing() const;
   [[nodiscard]] bool motion_is_finite(std::size_t slot) const;
   [[noreturn]] void fail_on_motion() const;
-  [[nodiscard]] Inertia inertia(std::size_t slot) const;
-  [[nodiscard]] Load total_load(std::size_t slot) const;
+  [[nodiscard]] Vec3 push_besides_gravity(std::size_t slot) const;
+  [[nodiscard]] Load total_load(std::size_t slot, const Vec3& push) const;
 
   SimulationSetup setup_;
   std::vector<ShapeView> shapes_;  // views into setup_.shapes
@@ -109,6 +113,7 @@ class Simulation {
   double largest_radius_{0};  // of all shapes [m]
   Grains grains_;
   std::vector<GrainFrame> frames_;  // owned grains, then ghosts
+  std::vector<Inertia> inertias_;   // of the owned grains
   std::vector<Load> contact_loads_;
   GrainContacts grain_contacts_;
   WallContacts wall_contacts_;

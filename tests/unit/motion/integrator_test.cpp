@@ -22,7 +22,8 @@ Grains one_grain(const Vec3& velocity, const Vec3& angular_velocity_body) {
 }
 
 void advance(Grains& grains, const Load& load, const Inertia& inertia, double damping, double dt) {
-  drift(grains, 0, kick(grains, 0, load, inertia, damping, dt), dt);
+  drift(grains, 0,
+        kick(grains, 0, rotation_matrix(grains.orientation[0]), load, inertia, damping, dt), dt);
 }
 
 Vec3 angular_momentum_world(const Grains& grains, const Inertia& inertia) {

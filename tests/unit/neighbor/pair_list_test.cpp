@@ -53,6 +53,20 @@ TEST(PairList, LinkedBinsMatchBruteForce) {
   }
 }
 
+TEST(PairList, LayersMatchBruteForceForUnequalSizes) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Cloud cloud = random_cloud(seed, 500, 8);
+    std::mt19937_64 random{seed};
+    std::uniform_real_distribution<double> power{-6, 1};
+    for (double& radius : cloud.radii) radius = std::exp2(power(random));
+    cloud.radii[7] = 0;
+    for (const double skin : {0.0, 0.01, 0.5}) {
+      expect_same(find_pairs(cloud.ids, cloud.positions, cloud.radii, skin, 400),
+                  find_pairs_brute_force(cloud.ids, cloud.positions, cloud.radii, skin, 400));
+    }
+  }
+}
+
 TEST(PairList, GrainsFarAwayNeitherCostNorConfuse) {
   Cloud cloud = random_cloud(3, 200, 4);
   cloud.positions[17] = {1e12, -3e15, 2};

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/boundary/near_wall.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reckon/contact/motion_meter.hpp"
+#include "support/random_motion.hpp"
+#include "support/test_shapes.hpp"
+
+namespace reckon {
+namespace {
+
+using testing::RandomMotion;
+
+/// A grain wanders along a wall that moves too. As NearList.MissesNoTouchWhateverTheMotion.
+TEST(NearWall, MissesNoTouchWhateverTheMotion) {
+  const std::vector<Shape> shapes{testing::bumpy_grain(1.0, 279, 18),
+                                  testing::box({0.5, 0.8, 1}, 8, 0.1)};
+  const std::vector<ShapeView> views{shapes.begin(), shapes.end()};
+  const AreaLaw law{1e6, 1e6, 0};
+  const std::vector<Wall> walls{
+      {"plane", PlaneSurface{{3, 1, 2}, normalized(Vec3{1, 2, 2})}, law, 0.3, false, {}},
+      {"drum", CylinderSurface{{3, 1, 2}, normalized(Vec3{1, 0, 2}), 2.5}, law, 0.3, true, {}}};
+  std::uint64_t touched = 0;
+  std::uint64_t slept = 0;
+  ContactCounters counters;
+  for (std::uint64_t walk = 0; walk < 200; ++walk) {
+    RandomStream random{walk, RandomPurpose::other, 8};
+    const Wall& wall = walls[walk % 2];
+    std::vector<GrainFrame> frames{{GrainId{0}, &views[walk / 2 % 2]}};
+    RandomMotion motion{random, frames[0], {3.2, 1.2, 2.2}};
+    WallPose pose;
+    double wall_travelled = 0;
+    MotionMeter meter;
+    NearWall list;
+    double wake = wake_always;
+    for (int step = 0; step < 400; ++step) {
+      const double stride = std::exp2(random.uniform(-17, -1));
+      const double from_wall = distance(wall, pose, frames[0].position);
+      const Vec3 away =
+          std::visit([&](const auto& s) { return s.gradient(frames[0].position); }, wall.surface);
+      motion.move(stride, (from_wall > 1 ? -stride : from_wall < 0.3 ? stride : 0) * away);
+      const Vec3 shift{random.uniform(-0.1, 0.1) * stride, 0, 0};
+      pose.displacement += shift;
+      wall_travelled = (wall_travelled + norm(shift)) * (1 + 1e-15);
+      meter.follow(frames);
+      const double odometer = meter.travelled()[0] + wall_travelled;
+      std::vector<Touch> expected;
+      find_wall_touches(frames[0], wall, pose, expected);
+      if (odometer < wake) {
+        ASSERT_TRUE(expected.empty()) << "walk " << walk << " step " << step;
+        ++slept;
+        continue;
+      }
+      std::vector<Touch> found;
+      wake = list.find_touches(frames[0], wall, pose, odometer, found, counters);
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t n = 0; n < found.size(); ++n) {
+        ASSERT_EQ(found[n].node, expected[n].node);
+        ASSERT_EQ(found[n].phi, expected[n].phi);
+        ASSERT_EQ(found[n].lever_world, expected[n].lever_world);
+        ASSERT_EQ(found[n].gradient_world, expected[n].gradient_world);
+      }
+      touched += expected.empty() ? 0U : 1U;
+    }
+  }
+  EXPECT_GT(touched, 5000U);
+  EXPECT_GT(slept, 5000U);
+}
+
+}  // namespace
+}  // namespace reckon

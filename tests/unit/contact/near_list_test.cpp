@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/contact/near_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reckon/contact/clearance.hpp"
+#include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/pair_kernel.hpp"
+#include "reckon/core/random.hpp"
+#include "support/random_motion.hpp"
+#include "support/test_shapes.hpp"
+
+namespace reckon {
+namespace {
+
+using testing::RandomMotion;
+
+std::vector<Shape> zoo() {
+  return {testing::sphere(1.0, 200, 16),       testing::bumpy_grain(1.0, 279, 18),
+          testing::box({0.5, 0.8, 1}, 8, 0.1), testing::box({1.2, 1.2, 0.15}, 9, 0.06),
+          testing::bumpy_grain(0.12, 90, 12),  testing::bumpy_grain(4.0, 1500, 40)};
+}
+
+void expect_same_touches(const std::vector<Touch>& a, const std::vector<Touch>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    ASSERT_EQ(a[n].node, b[n].node);
+    ASSERT_EQ(a[n].phi, b[n].phi);
+    ASSERT_EQ(a[n].gradient_world, b[n].gradient_world);
+    ASSERT_EQ(a[n].lever_world, b[n].lever_world);
+    ASSERT_EQ(a[n].area, b[n].area);
+  }
+}
+
+/// Two grains wander about each other in strides from a hundred-thousandth of their size to half
+/// of it, sometimes together. The list must find what the plain finder finds, and must never let
+/// the pair sleep through a touch.
+TEST(NearList, MissesNoTouchWhateverTheMotion) {
+  const std::vector<Shape> shapes = zoo();
+  const std::vector<ShapeView> views{shapes.begin(), shapes.end()};
+  std::uint64_t touched = 0;
+  std::uint64_t slept = 0;
+  ContactCounters counters;
+  for (std::uint64_t walk = 0; walk < 300; ++walk) {
+    RandomStream random{walk, RandomPurpose::other, 7};
+    const auto pick = [&] { return static_cast<std::size_t>(random.uniform(0, 6)); };
+    const ShapeView& shape_a = views[pick()];
+    const ShapeView& shape_b = views[pick()];
+    const double size = std::min(shape_a.bounding_radius, shape_b.bounding_radius);
+    const double contact = shape_a.bounding_radius + shape_b.bounding_radius;
+    std::vector<GrainFrame> frames{{GrainId{0}, &shape_a}, {GrainId{1}, &shape_b}};
+    RandomMotion a{random, frames[0], {}};
+    RandomMotion b{random, frames[1], {0.9 * contact, 0, 0}};
+    MotionMeter meter;
+    NearList list;
+    double wake = wake_always;
+    for (int step = 0; step < 400; ++step) {
+      const double stride = size * std::exp2(random.uniform(-17, -1));
+      const Vec3 towards = frames[1].position - frames[0].position;
+      // Held near contact: drawn together when apart, pushed apart when deep.
+      const double pull = norm(towards) > 0.95 * contact  ? 1
+                          : norm(towards) < 0.5 * contact ? -1
+                                                          : 0;
+      a.move(stride, pull * stride * normalized(towards));
+      if (random.uniform() < 0.3) {
+        b.follow(a.last_shift());
+      } else {
+        b.move(stride, {});
+      }
+      meter.follow(frames);
+      ASSERT_TRUE(meter.trustworthy());
+      const double odometer = meter.travelled()[0] + meter.travelled()[1];
+      std::vector<Touch> expected;
+      find_touches(frames[0], frames[1], expected);
+      if (odometer < wake) {
+        ASSERT_TRUE(expected.empty()) << "walk " << walk << " step " << step;
+        ++slept;
+        continue;
+      }
+      std::vector<Touch> found;
+      wake = list.find_touches(frames[0], frames[1], odometer, found, counters);
+      expect_same_touches(found, expected);
+      if (HasFatalFailure()) FAIL() << "walk " << walk << " step " << step;
+      touched += expected.empty() ? 0U : 1U;
+    }
+  }
+  EXPECT_GT(touched, 10000U);
+  EXPECT_GT(slept, 10000U);
+  EXPECT_GT(counters.lists_checked, counters.lists_made);
+}
+
+/// A node that creeps up in steps far below the clearance is looked at a few times, not every time.
+TEST(NearList, LooksSeldomAtWhatApproachesSlowly) {
+  const Shape sphere = testing::sphere(1.0, 500, 30);
+  const ShapeView view{sphere};
+  std::vector<GrainFrame> frames{{GrainId{0}, &view}, {GrainId{1}, &view}};
+  frames[1].position = {2.5, 0, 0};
+  MotionMeter meter;
+  NearList list;
+  ContactCounters counters;
+  double wake = wake_always;
+  int looks = 0;
+  std::vector<Touch> touches;
+  while (touches.empty()) {
+    frames[1].position.x -= 1e-4;
+    meter.follow(frames);
+    const double odometer = meter.travelled()[0] + meter.travelled()[1];
+    if (odometer < wake) continue;
+    ++looks;
+    wake = list.find_touches(frames[0], frames[1], odometer, touches, counters);
+  }
+  EXPECT_LT(frames[1].position.x, 2.01);
+  EXPECT_LT(looks, 100);
+}
+
+TEST(Clearance, NeverExceedsTheDistanceToTheInside) {
+  for (const Shape& shape : zoo()) {
+    const ShapeView view{shape};
+    const Clearance clearance{view};
+    RandomStream random{2, RandomPurpose::other, 1};
+    const double reach = 1.8 * view.bounding_radius;
+    const auto any_point = [&] {
+      Vec3 p;
+      for (int axis = 0; axis < 3; ++axis) p[axis] = random.uniform(-reach, reach);
+      return p;
+    };
+    std::vector<Vec3> inside;
+    while (inside.size() < 2000) {
+      const Vec3 p = any_point();
+      const auto sample = view.level_set.sample(p);
+      if (sample.inside_grid && sample.phi < 0) inside.push_back(p);
+    }
+    double tightest = 0;
+    for (int n = 0; n < 2000; ++n) {
+      const Vec3 p = any_point();
+      double distance = std::numeric_limits<double>::infinity();
+      for (const Vec3& q : inside) distance = std::min(distance, norm(p - q));
+      ASSERT_LE(clearance.of_grid(p), distance);
+      ASSERT_LE(clearance.of_sphere(p), distance);
+      tightest = std::max(tightest, clearance.of_grid(p) / distance);
+    }
+    EXPECT_GT(tightest, 0.6);
+  }
+}
+
+TEST(MotionMeter, NoPointOutrunsTheMeter) {
+  const Shape shape = testing::sphere(1.0, 50, 12);
+  const ShapeView view{shape};
+  RandomStream random{4, RandomPurpose::other, 0};
+  for (int walk = 0; walk < 50; ++walk) {
+    std::vector<GrainFrame> frames{{GrainId{5}, &view}};
+    RandomMotion motion{random, frames[0], {random.uniform(-1e3, 1e3), 0, 0}};
+    MotionMeter meter;
+    meter.follow(frames);
+    const GrainFrame start = frames[0];
+    for (int step = 0; step < 100; ++step) {
+      motion.move(std::exp2(random.uniform(-30, 0)), {});
+      meter.follow(frames);
+      for (std::size_t n = 0; n < view.node_x.size(); ++n) {
+        const Vec3 before = start.position + start.rotation * view.node(n);
+        const Vec3 now = frames[0].position + frames[0].rotation * view.node(n);
+        ASSERT_LE(norm(now - before), meter.travelled()[0]);
+      }
+    }
+  }
+}
+
+TEST(MotionMeter, FollowsGrainsByIdAndTrustsOnlyRotations) {
+  const Shape shape = testing::sphere(1.0, 50, 12);
+  const ShapeView view{shape};
+  std::vector<GrainFrame> frames{{GrainId{5}, &view}, {GrainId{9}, &view, {4, 0, 0}}};
+  MotionMeter meter;
+  meter.follow(frames);
+  EXPECT_EQ(meter.travelled()[0], 0);
+  frames[1].position.x = 4.5;
+  meter.follow(frames);
+  std::swap(frames[0], frames[1]);
+  frames.push_back({GrainId{1}, &view});
+  frames[0].position.x = 4.25;
+  meter.follow(frames);
+  EXPECT_NEAR(meter.travelled()[0], 0.75, 1e-9);
+  EXPECT_GE(meter.travelled()[0], 0.75);
+  EXPECT_EQ(meter.travelled()[1], 0);
+  EXPECT_EQ(meter.travelled()[2], 0);
+  EXPECT_TRUE(meter.trustworthy());
+  frames[2].rotation = rotation_matrix({0.5, 0.5, 0.5, 0.501});
+  meter.follow(frames);
+  EXPECT_FALSE(meter.trustworthy());
+  frames[2].rotation = rotation_matrix(normalized(Quaternion{0.5, 0.5, 0.5, 0.501}));
+  meter.follow(frames);
+  EXPECT_TRUE(meter.trustworthy());
+}
+
+}  // namespace
+}  // namespace reckon
