@@ -60,7 +60,7 @@ std::vector<Cell> scattered_lattice(int cells_per_edge, double side) {
 /// Puts each grain in a cell that holds its bounding sphere, largest first; a cell is cut into
 /// eight as long as the grain fits into one of them. False when cells run out.
 bool fill_cells(std::vector<Cell> cells, const std::vector<std::uint32_t>& by_size,
-                const ShapeLibrary& shapes, std::vector<GrainState>& grains) {
+                std::span<const ShapeView> shapes, std::vector<GrainState>& grains) {
   for (const std::uint32_t s : by_size) {
     if (cells.empty()) return false;
     Cell cell = cells.back();
@@ -79,7 +79,7 @@ bool fill_cells(std::vector<Cell> cells, const std::vector<std::uint32_t>& by_si
 }
 
 /// One grain per shape, bounding spheres apart, in a cube from the origin; returns its edge.
-double place_apart(const ShapeLibrary& shapes, std::vector<GrainState>& grains) {
+double place_apart(std::span<const ShapeView> shapes, std::vector<GrainState>& grains) {
   std::vector<std::uint32_t> by_size(shapes.size());
   std::iota(by_size.begin(), by_size.end(), 0U);
   std::stable_sort(by_size.begin(), by_size.end(), [&](std::uint32_t s, std::uint32_t t) {
@@ -197,13 +197,13 @@ Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& mate
   packing.setup.contact = {material.law, material.friction, material.master};
   packing.setup.time_step = time_step;
   packing.setup.skin = skin;
-  if (!file.empty() && read_packing(file, packing.setup.shapes->size(), packing)) {
+  if (!file.empty() && read_packing(file, packing.setup.shapes.views().size(), packing)) {
     packing.setup.walls = closed_box(packing.low, packing.high, material);
     return packing;
   }
-  const double edge = place_apart(*packing.setup.shapes, packing.state.grains);
+  const double edge = place_apart(packing.setup.shapes.views(), packing.state.grains);
   double smallest = edge;
-  for (const Shape& shape : *packing.setup.shapes) {
+  for (const ShapeView& shape : packing.setup.shapes.views()) {
     smallest = std::min(smallest, shape.bounding_radius);
   }
   number_by_place(packing.state.grains, 2 * smallest);

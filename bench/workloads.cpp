@@ -26,7 +26,7 @@ Workload sheared(Packing packing, double inertial_number) {
   walls[5].motion = WallMotion{.velocity = {0, 0, 0.5 * rate * size.z}};
   packing.setup.damping = 1;
   double volume = 0;
-  for (const Shape& shape : *packing.setup.shapes) volume += shape.mass.volume;
+  for (const ShapeView& shape : packing.setup.shapes.views()) volume += shape.mass.volume;
   return {std::move(packing.setup), std::move(packing.state), inertial_number,
           volume / (size.x * size.y * size.z)};
 }
@@ -85,7 +85,7 @@ Workload settle(std::uint32_t grains, const std::string& /*packing_file*/) {
   fill.count = grains;
   fill.region = box;
   fill.velocity = {0, 0, -2};
-  work.state.grains = fill_region(fill, *work.setup.shapes, ShapeId{0}, GrainId{0}, 5);
+  work.state.grains = fill_region(fill, work.setup.shapes.views(), ShapeId{0}, GrainId{0}, 5);
   // fill_region draws shapes; here each grain has its own.
   for (GrainState& grain : work.state.grains) grain.shape = ShapeId{grain.id.get()};
   work.whole_run = 5000;

@@ -20,14 +20,16 @@
 #include "reckon/core/error.hpp"
 #include "reckon/io/nearest_name.hpp"
 #include "reckon/io/run.hpp"
+#include "reckon/parallel/communicator.hpp"
 #include "reference_command.hpp"
 #include "run_command.hpp"
 #include "surfaces_command.hpp"
 
+namespace reckon::app {
 namespace {
 
 std::string version() {
-  const reckon::BuildInfo build = reckon::build_info();
+  const BuildInfo build = build_info();
   return fmt::format("reckon {} ({}, {}, {})", build.version, build.revision, build.compiler,
                      build.flags);
 }
@@ -46,12 +48,12 @@ void require_known_command(const CLI::App& app, int argc, char** argv) {
     if (command->get_name() == argv[1]) return;
     names.push_back(command->get_name());
   }
-  const auto near = reckon::nearest_name(argv[1], names);
-  throw reckon::Error{{.place = {},
-                       .problem = fmt::format("there is no command \"{}\"", argv[1]),
-                       .reason = {},
-                       .fix = near ? fmt::format("Did you mean `reckon {}`?", *near)
-                                   : fmt::format("There are {}.", fmt::join(names, ", "))}};
+  const auto near = nearest_name(argv[1], names);
+  throw Error{{.place = {},
+               .problem = fmt::format("there is no command \"{}\"", argv[1]),
+               .reason = {},
+               .fix = near ? fmt::format("Did you mean `reckon {}`?", *near)
+                           : fmt::format("There are {}.", fmt::join(names, ", "))}};
 }
 
 /// Idle threads of GNU's OpenMP spin for milliseconds before they sleep. Where other programs want
@@ -67,30 +69,41 @@ void restart_with_short_spin(char** argv) {
   execv("/proc/self/exe", argv);  // on failure: go on as we are
 }
 
-/// A run uses one process: copies of it would write over each other's files.
-void require_one_process() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
-    const char* count = std::getenv(name);
-    if (count == nullptr || std::string_view{count} == "1") continue;
-    throw reckon::Error{{.place = {},
-                         .problem = fmt::format("started {} times at once", count),
-                         .reason = "a run uses one process with threads",
-                         .fix = "Start it without mpirun; --threads sets the number of threads."}};
+/// Whether mpirun, srun or the like started this process. Without them MPI is left alone: starting
+/// it takes a while, and most commands have no use for it.
+bool started_by_launcher() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"}) {
+    if (std::getenv(name) != nullptr) return true;
   }
+  return false;
 }
 // NOLINTEND(concurrency-mt-unsafe)
 
-int complain(const std::string& problem, int code) {
-  fmt::print(stderr, "reckon: error: {}\n", problem);
+int complain(const Communicator& ranks, const std::string& problem, int code) {
+  if (ranks.is_root()) fmt::print(stderr, "reckon: error: {}\n", problem);
   return code;
 }
 
-}  // namespace
+/// Ends a command that threw. An Error that all ranks met is told once, and all end in order. What
+/// only some met is told by them, and takes the others along: they may be waiting for a message.
+int end_failed(const Communicator& ranks, const std::string& problem, int code) {
+  constexpr double patience = 3;  // [s]
+  if (ranks.meet(patience)) return complain(ranks, problem, code);
+  fmt::print(stderr, "reckon: error on rank {} of {}: {}\n", ranks.rank(), ranks.size(), problem);
+  std::fflush(nullptr);
+  ranks.abort(code);
+}
 
-// What escapes while the options are described ends the program with its own text.
-int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
-  using namespace reckon::app;
-  restart_with_short_spin(argv);
+/// All commands but `run` are for one process.
+void require_run_command(const Communicator& ranks, int argc, char** argv) {
+  if (ranks.size() == 1 || (argc > 1 && std::string_view{argv[1]} == "run")) return;
+  throw Error{{.place = {},
+               .problem = fmt::format("started {} times at once", ranks.size()),
+               .reason = "only `reckon run` uses several processes",
+               .fix = "Start it without mpirun."}};
+}
+
+int run_command_line(int argc, char** argv, const Communicator& ranks) {
   CLI::App app{
       "Sand Reckoner: level-set discrete element method for grains of any shape.\n"
       "Shapes come from `grains`, a scene says what happens to them, `check` and `run` do the "
@@ -100,30 +113,42 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   app.require_subcommand(1);
   add_grains_command(app);
   add_check_command(app);
-  add_run_command(app);
+  add_run_command(app, ranks);
   add_diff_command(app);
   add_surfaces_command(app);
   add_reference_command(app);
   app.footer(std::string{"`reckon COMMAND --help` has examples.\n\n"} + exit_code_footer);
   try {
-    require_one_process();
+    require_run_command(ranks, argc, argv);
     require_known_command(app, argc, argv);
     app.parse(argc, argv);
     return success;
   } catch (const CLI::RuntimeError& end) {
     return end.get_exit_code();  // the command has said why
   } catch (const CLI::Success& asked_for_help) {
-    return app.exit(asked_for_help);
+    return ranks.is_root() ? app.exit(asked_for_help) : success;
   } catch (const CLI::ParseError& error) {
-    return complain(fmt::format("{}\nSee: {}", error.what(), help_of(app)), input_at_fault);
-  } catch (const reckon::RunFailure& error) {
-    return complain(error.what(), run_failed);
-  } catch (const reckon::Error& error) {
-    return complain(error.what(), input_at_fault);
+    return complain(ranks, fmt::format("{}\nSee: {}", error.what(), help_of(app)), input_at_fault);
+  } catch (const RunFailure& error) {
+    return end_failed(ranks, error.what(), run_failed);
+  } catch (const Error& error) {
+    return end_failed(ranks, error.what(), input_at_fault);
   } catch (const std::bad_alloc&) {
-    return complain("not enough memory for this scene", run_failed);
+    return end_failed(ranks, "not enough memory for this scene", run_failed);
   } catch (const std::exception& error) {
-    return complain(fmt::format("{}. This is a fault of reckon itself", error.what()),
-                    internal_error);
+    return end_failed(ranks, fmt::format("{}. This is a fault of reckon itself", error.what()),
+                      internal_error);
   }
+}
+
+}  // namespace
+}  // namespace reckon::app
+
+// What escapes while the options are described ends the program with its own text.
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
+  using namespace reckon::app;
+  restart_with_short_spin(argv);
+  if (!started_by_launcher()) return run_command_line(argc, argv, {});
+  const reckon::ParallelSession session{argc, argv};
+  return run_command_line(argc, argv, session.world());
 }

@@ -37,9 +37,9 @@ std::string time_left(const RunProgress& progress, double steps_per_second) {
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay(bool quiet)
+ProgressDisplay::ProgressDisplay(bool quiet, bool may_redraw)
     : quiet_{quiet},
-      terminal_{::isatty(STDOUT_FILENO) == 1},
+      terminal_{may_redraw && ::isatty(STDOUT_FILENO) == 1},
       last_shown_{Clock::now()},
       rate_since_{last_shown_} {}
 

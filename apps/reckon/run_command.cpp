@@ -3,11 +3,14 @@
 #include "run_command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -16,6 +19,8 @@
 #include "progress.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/io/run.hpp"
+#include "reckon/parallel/communicator.hpp"
+#include "reckon/parallel/on_root.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "scene_input.hpp"
 #include "stop_signal.hpp"
@@ -63,54 +68,82 @@ void print_result(const RunReport& report, const std::filesystem::path& folder) 
     fmt::print(", {:.2g} of the energy turned over",
                std::abs(report.energy_error) / report.energy_turnover);
   }
-  fmt::print("\n  tables    {}\n  ParaView  {}\n", (folder / "history.csv").string(),
+  fmt::print("\n{}", report.performance);
+  fmt::print("  tables    {}\n  ParaView  {}\n", (folder / "history.csv").string(),
              (folder / "grains.pvd").string());
 }
 
-void run(const Options& options) {
-  if (options.threads > 0) set_thread_count(options.threads);
-  const SceneInput input = read_scene(options.scene);
-  if (!input.reading.faults.empty()) {
-    print_faults(options.scene, input.reading);
+/// Threads of each rank where the user has not chosen: an even share of the machine's processors,
+/// within what the launcher lets this rank use.
+int default_thread_count(const Communicator& ranks) {
+  const long processors = ::sysconf(_SC_NPROCESSORS_ONLN);
+  const int share = static_cast<int>(processors) / ranks.machine().size();
+  return std::clamp(share, 1, thread_count());
+}
+
+void set_threads(const Options& options, const Communicator& ranks) {
+  if (options.threads > 0) {
+    set_thread_count(options.threads);
+  } else if (ranks.size() > 1 &&
+             std::getenv("OMP_NUM_THREADS") == nullptr) {  // NOLINT(concurrency-mt-unsafe)
+    set_thread_count(default_thread_count(ranks));
+  }
+}
+
+/// Returns on all ranks, with the scene on the root; with faults it ends the command on all.
+SceneInput read_scene_on_root(const Options& options, const Communicator& ranks) {
+  SceneInput input;
+  on_root(ranks, [&] { input = read_scene(options.scene); });
+  if (ranks.any(!input.reading.faults.empty())) {
+    if (ranks.is_root()) print_faults(options.scene, input.reading);
     throw CLI::RuntimeError{input_at_fault};
   }
+  return input;
+}
+
+void run(const Options& options, const Communicator& ranks) {
+  set_threads(options, ranks);
+  const SceneInput input = read_scene_on_root(options, ranks);
+  const bool quiet = options.quiet || !ranks.is_root();
   const RunOptions run_options{
       .folder = run_folder(options),
       .resume = options.resume,
       .overwrite = options.overwrite,
       .steps = options.steps > 0 ? std::optional{options.steps} : std::nullopt,
       .safety_interval = 60 * options.safety_minutes};
-  ProgressDisplay display{options.quiet};
+  ProgressDisplay display{quiet, ranks.size() == 1};
   RunHooks hooks;
   hooks.stop_requested = [] { return stop_signal() != 0; };
   hooks.progressed = [&](const RunProgress& progress) { display.show(progress); };
   hooks.note = [&](const std::string& text) {
-    if (options.quiet) return;
+    if (quiet) return;
     display.clear();
     fmt::print("{}\n", text);
     std::fflush(stdout);
   };
   watch_stop_signals();
-  if (!options.quiet) {
+  if (!quiet) {
     const std::string& title = input.scene.config.title;
     fmt::print("{} -> {}\n", title.empty() ? options.scene : title, run_options.folder.string());
   }
   RunReport report;
   try {
-    report = run_scene(input.reading, input.scene, run_options, hooks);
+    report = run_scene(input.reading, input.scene, run_options, hooks, ranks);
   } catch (...) {
     display.clear();
     throw;
   }
   display.clear();
   if (report.end == RunEnd::interrupted) {
-    const int signal = stop_signal();
-    fmt::print(stderr, "reckon: stopped by {} at step {} of {}; checkpoint written\n  {}\n",
-               signal == SIGTERM ? "SIGTERM" : "Ctrl-C", report.progress.step,
-               report.progress.steps, resume_hint(options));
-    throw CLI::RuntimeError{signal == SIGTERM ? terminated : interrupted};
+    const int signal = stop_signal() == SIGINT ? SIGINT : SIGTERM;
+    if (ranks.is_root()) {
+      fmt::print(stderr, "reckon: stopped by {} at step {} of {}; checkpoint written\n  {}\n",
+                 signal == SIGINT ? "Ctrl-C" : "SIGTERM or SIGUSR1", report.progress.step,
+                 report.progress.steps, resume_hint(options));
+    }
+    throw CLI::RuntimeError{signal == SIGINT ? interrupted : terminated};
   }
-  if (options.quiet) return;
+  if (quiet) return;
   if (report.end == RunEnd::nothing_to_do) {
     fmt::print("the run is complete already: nothing to do\n");
   } else {
@@ -120,15 +153,17 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app) {
+void add_run_command(CLI::App& app, const Communicator& ranks) {
   CLI::App* command = app.add_subcommand("run", "Run a scene, or go on with a run");
   auto options = std::make_shared<Options>();
   command->add_option("scene", options->scene, "Scene file (TOML)")->required();
   command->add_option("--out", options->folder,
                       "Folder for the run's files (default: name of the scene + .run)");
   command
-      ->add_option("--threads", options->threads,
-                   "Number of threads (default: all); changes no result")
+      ->add_option(
+          "--threads", options->threads,
+          "Number of threads of each process (default: an even share of the machine); changes "
+          "no result")
       ->check(CLI::Range(1, 4096));
   command->add_option("--steps", options->steps, "Run to this step instead of what the scene says")
       ->check(CLI::PositiveNumber);
@@ -144,15 +179,17 @@ void add_run_command(CLI::App& app) {
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  command->footer(std::string{"Examples:\n"
-                              "  reckon run settle.toml\n"
-                              "  reckon run settle.toml --out /scratch/settle --threads 8\n"
-                              "  reckon run settle.toml --resume               after a break\n"
-                              "  reckon run settle.toml --resume --steps 50000  longer\n\n"
-                              "Ctrl-C and SIGTERM finish the step, write a checkpoint and end; a "
-                              "second one ends at once.\n\n"} +
-                  exit_code_footer);
-  command->callback([options] { run(*options); });
+  command->footer(
+      std::string{"Examples:\n"
+                  "  reckon run settle.toml\n"
+                  "  reckon run settle.toml --out /scratch/settle --threads 8\n"
+                  "  reckon run settle.toml --resume               after a break\n"
+                  "  reckon run settle.toml --resume --steps 50000  longer\n"
+                  "  mpirun -np 4 reckon run settle.toml --threads 2   4 processes\n\n"
+                  "Ctrl-C, SIGTERM and SIGUSR1 finish the step, write a checkpoint and end; a "
+                  "second one ends at once.\n\n"} +
+      exit_code_footer);
+  command->callback([options, &ranks] { run(*options, ranks); });
 }
 
 }  // namespace reckon::app

@@ -6,9 +6,14 @@ namespace CLI {
 class App;
 }
 
+namespace reckon {
+class Communicator;
+}
+
 namespace reckon::app {
 
-/// reckon run: runs a scene, or goes on with a run.
-void add_run_command(CLI::App& app);
+/// reckon run: runs a scene, or goes on with a run, on all `ranks` together. The command holds a
+/// reference to them.
+void add_run_command(CLI::App& app, const Communicator& ranks);
 
 }  // namespace reckon::app

@@ -21,7 +21,7 @@ void watch_stop_signals() {
   // SA_RESETHAND: the second signal meets the default, which ends the process.
   action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) ::sigaction(signal, &action, nullptr);
 }
 
 int stop_signal() { return received; }

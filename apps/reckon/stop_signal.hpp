@@ -4,7 +4,8 @@
 
 namespace reckon::app {
 
-/// From now on the first SIGINT or SIGTERM is only noted, so that a run can end in good order; a
+/// From now on the first SIGINT, SIGTERM or SIGUSR1 (which batch systems send ahead of the end of a
+/// job's time, and mpirun passes on) is only noted, so that a run can end in good order; a
 /// second one ends the process at once.
 void watch_stop_signals();
 

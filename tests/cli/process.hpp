@@ -47,6 +47,8 @@ class Process {
     wait();
   }
 
+  [[nodiscard]] pid_t id() const { return pid_; }
+
   void send(int signal) const { ::kill(pid_, signal); }
 
   /// Waits for the end; the exit code, or minus the signal that ended it.
@@ -63,5 +65,16 @@ class Process {
   std::filesystem::path folder_;
   pid_t pid_{-1};
 };
+
+/// Kills the last child of a process, as a failing machine might. Returns how many were killed.
+inline int kill_one_child(pid_t parent) {
+  const std::string list = read_file("/proc/" + std::to_string(parent) + "/task/" +
+                                     std::to_string(parent) + "/children");
+  const std::size_t end = list.find_last_of("0123456789");
+  if (end == std::string::npos) return 0;
+  const std::size_t before = list.find_last_of(' ', end);
+  const std::size_t first = before == std::string::npos ? 0 : before + 1;
+  return ::kill(std::stoi(list.substr(first, end - first + 1)), SIGKILL) == 0 ? 1 : 0;
+}
 
 }  // namespace reckon::testing

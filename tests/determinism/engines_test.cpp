@@ -61,7 +61,7 @@ Scene dynamic_drop() {
   fill.count = 50;
   fill.region = BoxConfig{{-4, -4, 0}, {4, 4, 60}};
   fill.velocity = {0.3, 0.1, -8};
-  scene.start.grains = fill_region(fill, *scene.setup.shapes, ShapeId{0}, GrainId{0}, 4);
+  scene.start.grains = fill_region(fill, scene.setup.shapes.views(), ShapeId{0}, GrainId{0}, 4);
   return scene;
 }
 
@@ -107,8 +107,8 @@ Scene unequal_sizes() {
   fill.count = 150;
   fill.region = BoxConfig{{-3, -3, 10.6}, {3, 3, 60}};
   fill.velocity = {0, 0, -12};
-  const ShapeLibrary& shapes = *scene.setup.shapes;
-  for (GrainState grain : fill_region(fill, {&shapes[1], 1}, ShapeId{1}, GrainId{1}, 8)) {
+  const auto small = scene.setup.shapes.views().subspan(1, 1);
+  for (GrainState grain : fill_region(fill, small, ShapeId{1}, GrainId{1}, 8)) {
     scene.start.grains.push_back(grain);
   }
   return scene;

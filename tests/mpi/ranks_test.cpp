@@ -48,7 +48,7 @@ SimulationState thrown_grains(const ShapeLibrary& shapes) {
   fill.region = BoxConfig{{-5, -5, 0}, {5, 5, 40}};
   fill.velocity = {0.3, 0.1, -8};
   SimulationState state;
-  state.grains = fill_region(fill, shapes, ShapeId{0}, GrainId{0}, 4);
+  state.grains = fill_region(fill, testing::views_of(shapes), ShapeId{0}, GrainId{0}, 4);
   return state;
 }
 

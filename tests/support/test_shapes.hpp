@@ -128,6 +128,10 @@ inline Shape bumpy_grain(double radius, int node_count, double voxels_per_diamet
   return shape;
 }
 
+inline std::vector<ShapeView> views_of(const ShapeLibrary& shapes) {
+  return {shapes.begin(), shapes.end()};
+}
+
 inline std::shared_ptr<const ShapeLibrary> library_of(std::vector<Shape> shapes) {
   return std::make_shared<const ShapeLibrary>(std::move(shapes));
 }

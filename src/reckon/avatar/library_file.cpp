@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "reckon/avatar/legacy_morphology.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/core/exact_sum.hpp"
 #include "reckon/core/hdf5_file.hpp"
 
 namespace reckon {
@@ -149,6 +151,19 @@ class LibraryReader {
   }
 
   [[nodiscard]] std::size_t size() const { return table_.size(); }
+  /// All shapes without their arrays.
+  [[nodiscard]] const ShapeLibrary& table() const { return table_; }
+
+  [[nodiscard]] ShapeSummary summary(std::size_t s) const {
+    ShapeSummary summary{table_[s].name, outline_of(table_[s]), 0, digest_[s]};
+    const std::string place = file_.path().string() + ", shape " + table_[s].name;
+    check_outline(summary.outline, first_value_[s + 1] - first_value_[s], place);
+    std::vector<double> areas(first_node_[s + 1] - first_node_[s]);
+    file_.read_rows<double>("/node/area", first_node_[s], areas);
+    summary.outline.nodes = areas.size();
+    summary.node_area = exact_sum(areas);
+    return summary;
+  }
 
   [[nodiscard]] Shape shape(std::size_t s) const {
     Shape shape = table_[s];
@@ -255,6 +270,40 @@ ShapeLibrary load_library(const std::filesystem::path& path, double legacy_voxel
   for (std::size_t s = 0; s < reader.size(); ++s) library.push_back(reader.shape(s));
   check_names(path, library);
   return library;
+}
+
+ShapeSummary summary_of(const Shape& shape) {
+  return {shape.name, outline_of(shape), exact_sum(shape.nodes.area), shape_digest(shape)};
+}
+
+struct LibrarySource::Impl {
+  std::optional<LibraryReader> file;
+  ShapeLibrary folder;  // where there is no file
+};
+
+LibrarySource::LibrarySource(const std::filesystem::path& path, double legacy_voxel)
+    : impl_{std::make_unique<Impl>()} {
+  if (std::filesystem::is_directory(path)) {
+    impl_->folder = load_legacy_folder(path, legacy_voxel);
+  } else {
+    impl_->file.emplace(path);
+    check_names(path, impl_->file->table());
+  }
+}
+LibrarySource::~LibrarySource() = default;
+LibrarySource::LibrarySource(LibrarySource&&) noexcept = default;
+LibrarySource& LibrarySource::operator=(LibrarySource&&) noexcept = default;
+
+std::size_t LibrarySource::size() const {
+  return impl_->file ? impl_->file->size() : impl_->folder.size();
+}
+
+ShapeSummary LibrarySource::summary(std::size_t shape) const {
+  return impl_->file ? impl_->file->summary(shape) : summary_of(impl_->folder[shape]);
+}
+
+Shape LibrarySource::read(std::size_t shape) const {
+  return impl_->file ? impl_->file->shape(shape) : impl_->folder[shape];
 }
 
 ShapeLibrary load_shapes(const std::filesystem::path& path, std::span<const ShapeId> wanted) {

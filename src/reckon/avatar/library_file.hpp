@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,9 @@ namespace reckon {
 /// inertia, radii and spacing positive.
 void check_shape(const Shape& shape, const std::string& place);
 
+/// The part of check_shape that needs no grid and no nodes; `values` is the number of grid values.
+void check_outline(const ShapeOutline& outline, std::uint64_t values, const std::string& place);
+
 /// Writes a shape library: a sealed HDF5 file (core/hdf5_file.hpp) in which all shapes' grids lie
 /// behind each other in one dataset and all nodes in four, with a table of where each begins, so
 /// that thousands of shapes load fast and any of them can be loaded alone.
@@ -41,6 +45,34 @@ void save_library(const std::filesystem::path& path, const ShapeLibrary& library
 /// morph_2.dat, ... in numeric order; see legacy_morphology.hpp), in which a voxel is taken as
 /// `legacy_voxel` metres long. Every shape's digest and check_shape are verified.
 [[nodiscard]] ShapeLibrary load_library(const std::filesystem::path& path, double legacy_voxel = 1);
+
+/// What a library tells of a shape before its grid and nodes are read.
+struct ShapeSummary {
+  std::string name;
+  ShapeOutline outline;
+  double node_area{0};      ///< sum of the nodes' areas [m^2]
+  std::uint64_t digest{0};  ///< see shape_digest
+};
+[[nodiscard]] ShapeSummary summary_of(const Shape& shape);
+
+/// A library (as load_library takes it) whose shapes are read one by one, when they are needed. A
+/// folder of legacy files has no table, so it is read and held as a whole.
+class LibrarySource {
+ public:
+  explicit LibrarySource(const std::filesystem::path& path, double legacy_voxel = 1);
+  ~LibrarySource();
+  LibrarySource(LibrarySource&&) noexcept;
+  LibrarySource& operator=(LibrarySource&&) noexcept;
+
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] ShapeSummary summary(std::size_t shape) const;
+  /// Verifies digest and check_shape.
+  [[nodiscard]] Shape read(std::size_t shape) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 /// Some shapes of a library file, in the order asked for.
 [[nodiscard]] ShapeLibrary load_shapes(const std::filesystem::path& path,

@@ -21,28 +21,6 @@ namespace {
                .fix = "Make the shape anew from its source."}};
 }
 
-void check_grid(const LevelSet& grid, const std::string& place) {
-  std::uint64_t count = 1;
-  for (const std::int32_t dim : grid.dims) {
-    if (dim < 2) refuse(place, "the grid has too few vertices", "each axis needs at least 2");
-    // Three 31-bit numbers need not fit into 64 bits, so compare before multiplying.
-    if (static_cast<std::uint64_t>(dim) > grid.values.size() / count) {
-      refuse(place, "the grid's dims and its number of values disagree");
-    }
-    count *= static_cast<std::uint64_t>(dim);
-  }
-  if (count != grid.values.size()) {
-    refuse(place, "the grid's dims and its number of values disagree");
-  }
-  if (!(grid.spacing > 0) || !std::isfinite(grid.spacing) || !is_finite(grid.origin_body)) {
-    refuse(place, "the grid's spacing or origin is no good number");
-  }
-  if (!std::all_of(grid.values.begin(), grid.values.end(),
-                   [](float value) { return std::isfinite(value); })) {
-    refuse(place, "the grid holds a value that is not finite");
-  }
-}
-
 void check_nodes(const SurfaceNodes& nodes, const std::string& place) {
   const std::size_t count = nodes.size();
   if (count == 0 || nodes.y.size() != count || nodes.z.size() != count ||
@@ -63,17 +41,39 @@ void add(XxHash64& hash, const std::vector<T>& values) {
 
 }  // namespace
 
-void check_shape(const Shape& shape, const std::string& place) {
-  check_grid(shape.level_set, place);
-  check_nodes(shape.nodes, place);
-  const auto& [volume, inertia] = shape.mass;
+void check_outline(const ShapeOutline& outline, std::uint64_t values, const std::string& place) {
+  std::uint64_t count = 1;
+  for (const std::int32_t dim : outline.dims) {
+    if (dim < 2) refuse(place, "the grid has too few vertices", "each axis needs at least 2");
+    // Three 31-bit numbers need not fit into 64 bits, so compare before multiplying.
+    if (static_cast<std::uint64_t>(dim) > values / count) {
+      refuse(place, "the grid's dims and its number of values disagree");
+    }
+    count *= static_cast<std::uint64_t>(dim);
+  }
+  if (count != values) refuse(place, "the grid's dims and its number of values disagree");
+  if (!(outline.spacing > 0) || !std::isfinite(outline.spacing) ||
+      !is_finite(outline.origin_body)) {
+    refuse(place, "the grid's spacing or origin is no good number");
+  }
+  const auto& [volume, inertia] = outline.mass;
   for (const double positive :
-       {volume, inertia.x, inertia.y, inertia.z, shape.bounding_radius, shape.lipschitz}) {
+       {volume, inertia.x, inertia.y, inertia.z, outline.bounding_radius, outline.lipschitz}) {
     if (!(positive > 0) || !std::isfinite(positive)) {
       refuse(place, "volume, inertia, bounding radius and Lipschitz constant must be positive",
              fmt::format("{} was found", positive));
     }
   }
+}
+
+void check_shape(const Shape& shape, const std::string& place) {
+  const std::vector<float>& values = shape.level_set.values;
+  check_outline(outline_of(shape), values.size(), place);
+  if (!std::all_of(values.begin(), values.end(),
+                   [](float value) { return std::isfinite(value); })) {
+    refuse(place, "the grid holds a value that is not finite");
+  }
+  check_nodes(shape.nodes, place);
 }
 
 std::uint64_t shape_digest(const Shape& shape) {

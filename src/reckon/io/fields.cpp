@@ -13,22 +13,9 @@
 #include "reckon/math/rotation.hpp"
 
 namespace reckon {
-namespace {
 
-/// Places of grains in the order of their ids, so that files do not depend on slots.
-std::vector<std::size_t> slots_by_id(const Grains& grains) {
-  std::vector<std::size_t> slots(grains.size());
-  for (std::size_t slot = 0; slot < slots.size(); ++slot) slots[slot] = slot;
-  std::sort(slots.begin(), slots.end(),
-            [&](std::size_t a, std::size_t b) { return grains.id[a] < grains.id[b]; });
-  return slots;
-}
-
-}  // namespace
-
-void write_grain_points(const std::filesystem::path& path, const Simulation& simulation,
-                        std::span<const ContactRecord> contacts) {
-  const Grains& grains = simulation.grains();
+void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& fields,
+                        std::span<const ShapeSummary> shapes, double density) {
   std::vector<std::uint32_t> id;
   std::vector<std::uint32_t> shape;
   std::vector<std::uint8_t> prescribed;
@@ -41,26 +28,25 @@ void write_grain_points(const std::filesystem::path& path, const Simulation& sim
   std::vector<Vec3> velocity;
   std::vector<Vec3> angular_velocity;
   std::vector<std::size_t> row_of_id;
-  for (const std::size_t slot : slots_by_id(grains)) {
-    const ShapeView& form = simulation.shapes()[grains.shape[slot].get()];
-    row_of_id.resize(std::max<std::size_t>(row_of_id.size(), grains.id[slot].get() + 1U));
-    row_of_id[grains.id[slot].get()] = id.size();
-    id.push_back(grains.id[slot].get());
-    shape.push_back(grains.shape[slot].get());
-    prescribed.push_back(grains.prescribed[slot]);
+  for (const GrainState& grain : fields.grains) {
+    const ShapeOutline& form = shapes[grain.shape.get()].outline;
+    row_of_id.resize(std::max<std::size_t>(row_of_id.size(), grain.id.get() + 1U));
+    row_of_id[grain.id.get()] = id.size();
+    id.push_back(grain.id.get());
+    shape.push_back(grain.shape.get());
+    prescribed.push_back(grain.prescribed ? 1 : 0);
     radius.push_back(form.bounding_radius);
     equivalent_radius.push_back(std::cbrt(0.75 / std::numbers::pi * form.mass.volume));
-    mass.push_back(simulation.mass(slot));
-    speed.push_back(norm(grains.velocity[slot]));
-    position.push_back(grains.position[slot]);
-    orientation.push_back(grains.orientation[slot]);
-    velocity.push_back(grains.velocity[slot]);
-    angular_velocity.push_back(rotation_matrix(grains.orientation[slot]) *
-                               grains.angular_velocity_body[slot]);
+    mass.push_back(density * form.mass.volume);
+    speed.push_back(norm(grain.velocity));
+    position.push_back(grain.position);
+    orientation.push_back(grain.orientation);
+    velocity.push_back(grain.velocity);
+    angular_velocity.push_back(rotation_matrix(grain.orientation) * grain.angular_velocity_body);
   }
   std::vector<std::uint32_t> touching(id.size(), 0);
   std::vector<Vec3> contact_force(id.size());
-  for (const ContactRecord& contact : contacts) {
+  for (const ContactRecord& contact : fields.contacts) {
     const std::size_t row = row_of_id[contact.grain.get()];
     ++touching[row];
     contact_force[row] += contact.force;
@@ -84,7 +70,7 @@ void write_grain_points(const std::filesystem::path& path, const Simulation& sim
                      vtk_array("prescribed", prescribed),
                      vtk_array("contacts", touching),
                      vtk_array("contact_force", contact_force)};
-  const std::vector<double> time{simulation.time()};
+  const std::vector<double> time{fields.time};
   data.field_data = {vtk_array("TimeValue", time)};
   write_vtp(path, data);
 }
@@ -156,9 +142,14 @@ void write_grain_surfaces(const std::filesystem::path& path, std::span<const Gra
   write_vtp(path, data);
 }
 
-std::vector<TriangleMesh> surface_meshes(std::span<const Shape> shapes) {
+std::vector<TriangleMesh> surface_meshes(std::span<const GrainState> grains,
+                                         const ShapeStore::Read& read) {
   std::vector<TriangleMesh> meshes;
-  for (const Shape& shape : shapes) meshes.push_back(extract_surface(shape.level_set));
+  for (const GrainState& grain : grains) {
+    meshes.resize(std::max<std::size_t>(meshes.size(), grain.shape.get() + 1U));
+    TriangleMesh& mesh = meshes[grain.shape.get()];
+    if (mesh.triangles.empty()) mesh = extract_surface(read(grain.shape).level_set);
+  }
   return meshes;
 }
 

@@ -6,19 +6,27 @@
 #include <span>
 #include <vector>
 
+#include "reckon/avatar/library_file.hpp"
 #include "reckon/avatar/triangle_mesh.hpp"
 #include "reckon/grains/grains.hpp"
-#include "reckon/shape/shape.hpp"
 #include "reckon/simulation/simulation.hpp"
 
 namespace reckon {
+
+/// What fields are written from: the assembly at one step.
+struct FieldsAtStep {
+  std::uint64_t step{0};
+  double time{0};                       ///< [s]
+  std::vector<GrainState> grains;       ///< sorted by id
+  std::vector<ContactRecord> contacts;  ///< see Simulation::contacts
+};
 
 /// Writes one point per grain, by id: `id`, `shape`, `radius` (of the bounding sphere),
 /// `equivalent_radius` (of the sphere of equal volume), `mass`, `orientation` (quaternion w, x, y,
 /// z, body to world), `velocity` and `angular_velocity` (world frame, half a step before),
 /// `speed`, `prescribed`, `contacts` (touching partners, walls included) and `contact_force` (net).
-void write_grain_points(const std::filesystem::path& path, const Simulation& simulation,
-                        std::span<const ContactRecord> contacts);
+void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& fields,
+                        std::span<const ShapeSummary> shapes, double density);
 
 /// Writes one line per touching pair from centre to centre, or from a grain's centre to its foot on
 /// a wall: `force` on the first grain, `force_magnitude`, `grain`, `partner` (grain id or wall
@@ -31,7 +39,9 @@ void write_contact_lines(const std::filesystem::path& path, std::span<const Cont
 void write_grain_surfaces(const std::filesystem::path& path, std::span<const GrainState> grains,
                           std::span<const TriangleMesh> surfaces, double time);
 
-/// The zero surface of every shape, for write_grain_surfaces.
-[[nodiscard]] std::vector<TriangleMesh> surface_meshes(std::span<const Shape> shapes);
+/// The zero surfaces of the shapes that grains have, by ShapeId, for write_grain_surfaces; those of
+/// other shapes are empty.
+[[nodiscard]] std::vector<TriangleMesh> surface_meshes(std::span<const GrainState> grains,
+                                                       const ShapeStore::Read& read);
 
 }  // namespace reckon

@@ -15,13 +15,13 @@
 namespace reckon {
 namespace {
 
-/// Keys that may differ between sessions: they change no state and no row of the history. File
-/// names may differ too, since what the files hold is compared by digests.
+/// Keys that may differ between sessions: they change no state and no row of the history (nor do
+/// those of the tables `neighbor` and `parallel`). File names may differ too, since what the files
+/// hold is compared by digests.
 constexpr std::array free_keys{"title",
                                "time.steps",
                                "time.duration",
                                "time.stop_at_unbalanced_ratio",
-                               "neighbor.skin",
                                "output.contacts",
                                "output.surfaces",
                                "output.checkpoint_interval",
@@ -50,6 +50,7 @@ std::vector<Setting> binding_settings(std::string_view scene) {
     } else if (const std::size_t equals = line.find(" = "); equals != std::string_view::npos) {
       const std::string name{line.substr(0, equals)};
       const std::string key = table.empty() ? name : fmt::format("{}.{}", table, name);
+      if (key.starts_with("neighbor.") || key.starts_with("parallel.")) continue;
       if (std::find(free_keys.begin(), free_keys.end(), key) != free_keys.end()) continue;
       settings.push_back({key, std::string{line.substr(equals + 3)}});  // with its unit
     }

@@ -4,19 +4,18 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "reckon/core/build_info.hpp"
-#include "reckon/core/file.hpp"
-#include "reckon/io/checkpoint.hpp"
-#include "reckon/io/run_folder.hpp"
-#include "reckon/io/run_outputs.hpp"
-#include "reckon/io/run_record.hpp"
-#include "reckon/io/run_start.hpp"
+#include "reckon/io/run_files.hpp"
+#include "reckon/io/scene_sharing.hpp"
+#include "reckon/parallel/on_root.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
@@ -29,38 +28,29 @@ double seconds_since(Clock::time_point start) {
 }
 
 constexpr std::uint64_t rest_interval_without_history = 100;  // steps
-constexpr double log_interval = 60;                           // [s]
+constexpr std::uint64_t vote_interval = 16;  // steps; a vote costs all ranks a wait
+constexpr double log_interval = 60;          // [s]
 
-/// One session of a run.
+/// One session of a run, the same on all ranks; the root alone has `files`.
 class Session {
  public:
-  Session(const std::string& text, const LoadedScene& scene, PreparedScene prepared,
-          const std::string& resolved, std::uint64_t steps, const RunOptions& options,
-          const RunHooks& hooks, RunStart start)
+  Session(const SceneConfig& config, PreparedScene prepared, std::uint64_t steps, bool resumed,
+          RunFiles* files, const RunOptions& options, const RunHooks& hooks,
+          const Communicator& ranks)
       : hooks_{hooks},
         options_{options},
-        config_{scene.config},
-        folder_{options.folder},
-        log_{folder_.log()},
-        simulation_{std::move(prepared.setup), start.checkpoint.state},
-        checkpoint_{std::move(start.checkpoint)},
-        outputs_{folder_, config_.output, simulation_.setup(),
-                 start.resumed ? std::optional{checkpoint_.state.step} : std::nullopt},
-        resumed_{start.resumed} {
-    progress_.first_step = checkpoint_.state.step;
-    progress_.step = checkpoint_.state.step;
+        config_{config},
+        ranks_{ranks},
+        files_{files},
+        simulation_{std::move(prepared.setup),
+                    files != nullptr ? files->take_start() : SimulationState{}, ranks},
+        resumed_{resumed} {
+    progress_.first_step = simulation_.step_number();
+    progress_.step = progress_.first_step;
     progress_.steps = steps;
     progress_.time = simulation_.time();
-    record_.started = utc_now();
-    record_.scene = config_.title;
-    record_.grains = scene.grains.size();
-    record_.shapes = scene.shapes->size();
-    record_.time_step = simulation_.setup().time_step;
-    record_.first_step = progress_.first_step;
-    record_.steps = steps;
-    write_file(folder_.scene(), text);
-    write_file(folder_.resolved(), resolved);
-    if (resumed_) latest_checkpoint_ = checkpoint_.state.step;
+    last_checkpoint_ = progress_.first_step;
+    has_checkpoint_ = resumed;
   }
 
   RunReport run() {
@@ -73,9 +63,9 @@ class Session {
       while (!rests && !interrupted && progress_.step < progress_.steps) {
         simulation_.step();
         update_progress();
-        rests = write_what_is_due();
-        interrupted = !rests && progress_.step < progress_.steps && hooks_.stop_requested &&
-                      hooks_.stop_requested();
+        const Votes votes = vote();
+        rests = write_what_is_due(votes.checkpoint);
+        interrupted = !rests && progress_.step < progress_.steps && votes.stop;
         if (hooks_.progressed) hooks_.progressed(progress_);
       }
       if (end != RunEnd::nothing_to_do) {
@@ -92,15 +82,19 @@ class Session {
  private:
   void begin() {
     const BuildInfo build = build_info();
-    note(fmt::format("reckon {} ({}), {} thread{}, {} grains, time step {:.6g} s", build.version,
-                     build.revision, thread_count(), thread_count() == 1 ? "" : "s", record_.grains,
-                     record_.time_step));
+    const std::string ranks =
+        ranks_.size() == 1 ? std::string{} : fmt::format("{} ranks of ", ranks_.size());
+    const std::string what =
+        fmt::format("reckon {} ({}), {}{} thread{}", build.version, build.revision, ranks,
+                    thread_count(), thread_count() == 1 ? "" : "s");
+    if (files_ != nullptr) files_->note(what);
     if (resumed_) {
-      note(fmt::format("resumed from the checkpoint of step {}", progress_.step));
+      if (files_ != nullptr) {
+        files_->note(fmt::format("resumed from the checkpoint of step {}", progress_.step));
+      }
     } else {
       measure();
-      checkpoint_.energy_at_start = last_.energy.total();
-      outputs_.append_history(last_, checkpoint_.energy_at_start);
+      on_root(ranks_, [&] { files_->begin(last_); });
       write_fields();
     }
     save_record("running");
@@ -112,19 +106,33 @@ class Session {
     progress_.wall_seconds = seconds_since(start_);
   }
 
+  /// What clocks and signals ask for: not the same on all ranks until they have voted. It changes
+  /// when files are written, never what they hold.
+  struct Votes {
+    bool stop{false};
+    bool checkpoint{false};
+  };
+  Votes vote() {
+    if (ranks_.size() > 1 && progress_.step % vote_interval != 0) return {};
+    const bool stop = hooks_.stop_requested && hooks_.stop_requested();
+    const bool late = files_ != nullptr && options_.safety_interval > 0 &&
+                      seconds_since(last_checkpoint_time_) >= options_.safety_interval;
+    std::array<std::int64_t, 2> votes{stop ? 1 : 0, late ? 1 : 0};
+    ranks_.sum(votes);
+    return {votes[0] > 0, votes[1] > 0};
+  }
+
   /// Returns whether the assembly has come to rest.
-  bool write_what_is_due() {
+  bool write_what_is_due(bool safety_checkpoint) {
     const std::uint64_t step = progress_.step;
     bool rests = false;
     if (is_due(step, config_.output.history_interval)) append_history();
     if (is_due(step, rest_interval())) rests = rests_after_history();
     if (is_due(step, config_.output.fields_interval)) write_fields();
-    const bool too_long_ago = options_.safety_interval > 0 &&
-                              seconds_since(last_checkpoint_time_) >= options_.safety_interval;
-    if (is_due(step, config_.output.checkpoint_interval) || too_long_ago) save_checkpoint();
-    if (seconds_since(last_log_time_) >= log_interval) {
+    if (is_due(step, config_.output.checkpoint_interval) || safety_checkpoint) save_checkpoint();
+    if (files_ != nullptr && seconds_since(last_log_time_) >= log_interval) {
       last_log_time_ = Clock::now();
-      log_.write(
+      files_->log(
           fmt::format("step {} of {}, {:.6g} s simulated", step, progress_.steps, progress_.time));
     }
     return rests;
@@ -154,104 +162,78 @@ class Session {
 
   void append_history() {
     measure();
-    outputs_.append_history(last_, checkpoint_.energy_at_start);
+    on_root(ranks_, [&] { files_->append_history(last_); });
   }
 
   void write_fields() {
-    const Clock::time_point start = Clock::now();
-    outputs_.write_fields(simulation_);
-    record_.output_seconds += seconds_since(start);
+    FieldsAtStep fields;
+    fields.step = simulation_.step_number();
+    fields.time = simulation_.time();
+    fields.contacts = simulation_.contacts();
+    fields.grains = simulation_.grain_states();
+    on_root(ranks_, [&] { files_->write_fields(fields); });
   }
 
-  /// A checkpoint that the scene did not ask for gives way to the next one.
   void save_checkpoint() {
-    const Clock::time_point start = Clock::now();
-    checkpoint_.state = simulation_.state();
-    const std::uint64_t step = checkpoint_.state.step;
-    write_checkpoint(folder_.checkpoint(step), checkpoint_);
-    if (latest_checkpoint_ && *latest_checkpoint_ != step &&
-        !is_due(*latest_checkpoint_, config_.output.checkpoint_interval)) {
-      std::filesystem::remove(folder_.checkpoint(*latest_checkpoint_));
-    }
-    latest_checkpoint_ = step;
+    SimulationState state = simulation_.state();
+    on_root(ranks_, [&] { files_->write_checkpoint(std::move(state)); });
+    last_checkpoint_ = progress_.step;
+    has_checkpoint_ = true;
     last_checkpoint_time_ = Clock::now();
-    record_.output_seconds += seconds_since(start);
     save_record("running");
   }
 
   RunReport finish(RunEnd end) {
     measure();
     if (end != RunEnd::interrupted) {
-      if (!outputs_.history_has(progress_.step)) append_history();
-      if (!outputs_.fields_have(progress_.step)) write_fields();
+      if (ranks_.any(files_ != nullptr && !files_->history_has(progress_.step))) append_history();
+      if (ranks_.any(files_ != nullptr && !files_->fields_have(progress_.step))) write_fields();
     }
-    if (end != RunEnd::nothing_to_do && latest_checkpoint_ != progress_.step) save_checkpoint();
+    if (end != RunEnd::nothing_to_do && !(has_checkpoint_ && last_checkpoint_ == progress_.step)) {
+      save_checkpoint();
+    }
     update_progress();
     const char* status = end == RunEnd::interrupted ? "interrupted"
                          : end == RunEnd::at_rest   ? "at rest"
                                                     : "complete";
-    log_.write(fmt::format("{} at step {} of {}", status, progress_.step, progress_.steps));
     save_record(status);
+    RunReport report{.end = end, .progress = progress_, .last = last_};
+    if (files_ == nullptr) return report;
+    files_->log(fmt::format("{} at step {} of {}", status, progress_.step, progress_.steps));
     const EnergyBudget& energy = last_.energy;
-    return {.end = end,
-            .progress = progress_,
-            .last = last_,
-            .energy_error = energy.total() - checkpoint_.energy_at_start,
-            .energy_turnover = energy.translation + energy.rotation + energy.elastic +
-                               std::abs(energy.friction) + std::abs(energy.dashpot) +
-                               std::abs(energy.damping) + std::abs(energy.body_work) +
-                               std::abs(energy.wall_work),
-            .checkpoint = folder_.checkpoint(*latest_checkpoint_)};
+    report.energy_error = energy.total() - files_->energy_at_start();
+    report.energy_turnover = energy.translation + energy.rotation + energy.elastic +
+                             std::abs(energy.friction) + std::abs(energy.dashpot) +
+                             std::abs(energy.damping) + std::abs(energy.body_work) +
+                             std::abs(energy.wall_work);
+    report.checkpoint = files_->checkpoint_file();
+    report.performance = files_->performance_text();
+    return report;
   }
 
   RunFailure fail(ErrorText text) {
-    if (latest_checkpoint_) {
-      if (!text.fix.empty()) text.fix += ' ';
-      text.fix +=
-          fmt::format("The last checkpoint is {} (step {}).",
-                      folder_.checkpoint(*latest_checkpoint_).string(), *latest_checkpoint_);
-    } else {
-      if (!text.fix.empty()) text.fix += ' ';
-      text.fix += "There is no checkpoint yet.";
-    }
-    RunFailure failure{text};
-    record_.message = failure.what();
-    log_.write(fmt::format("failed: {}", failure.what()));
-    try {
-      save_record("failed");
-    } catch (const Error&) {
-      // The reason for the failure is what counts; a full disk may be that very reason.
-    }
-    return failure;
+    if (files_ != nullptr) text = files_->fail(std::move(text), progress_);
+    return RunFailure{std::move(text)};
   }
 
   void save_record(const char* status) {
-    record_.status = status;
-    record_.step = progress_.step;
-    record_.wall_seconds = seconds_since(start_);
-    record_.list_rebuilds = simulation_.list_rebuilds();
-    write_run_record(folder_.json(), record_);
-  }
-
-  void note(const std::string& text) {
-    log_.write(text);
-    if (hooks_.note) hooks_.note(text);
+    update_progress();
+    const std::vector<RankPerformance> performance = simulation_.performance();
+    on_root(ranks_, [&] { files_->write_record(status, progress_, performance); });
   }
 
   const RunHooks& hooks_;
   const RunOptions& options_;
   const SceneConfig& config_;
-  RunFolder folder_;
-  RunLog log_;
+  Communicator ranks_;
+  RunFiles* files_;
   Simulation simulation_;
-  Checkpoint checkpoint_;  // its state is that of the latest checkpoint
-  RunOutputs outputs_;
   bool resumed_;
-  RunRecord record_;
   RunProgress progress_;
   Measurement last_;
   bool measured_{false};
-  std::optional<std::uint64_t> latest_checkpoint_;
+  std::uint64_t last_checkpoint_{0};
+  bool has_checkpoint_{false};
   Clock::time_point start_{Clock::now()};
   Clock::time_point last_checkpoint_time_{start_};
   Clock::time_point last_log_time_{start_};
@@ -260,24 +242,16 @@ class Session {
 }  // namespace
 
 RunReport run_scene(const SceneReading& reading, const LoadedScene& scene,
-                    const RunOptions& options, const RunHooks& hooks) {
-  PreparedScene prepared = prepare(scene);
+                    const RunOptions& options, const RunHooks& hooks, const Communicator& ranks) {
+  const LoadedScene shared = share_scene(scene, ranks);
+  PreparedScene prepared = prepare(shared, ranks);
   const std::uint64_t steps = options.steps.value_or(prepared.steps);
-  const RunFolder folder{options.folder};
-  Checkpoint first = first_checkpoint(scene, prepared);
-  if (folder.has_content() && !std::filesystem::is_directory(folder.root())) {
-    throw Error{{.place = folder.root().string(),
-                 .problem = "this is a file, not a folder",
-                 .reason = {},
-                 .fix = "Give another name with --out."}};
-  }
-  folder.create();
-  const FolderLock lock{folder.root()};
-  RunStart start = ready_folder(folder, options, std::move(first), hooks.note);
-  folder.create_subfolders();
-  const std::string resolved = resolved_scene(scene.config, prepared, steps);
-  Session session{reading.text, scene, std::move(prepared), resolved, steps,
-                  options,      hooks, std::move(start)};
+  std::optional<RunFiles> files;
+  on_root(ranks, [&] { files.emplace(reading, shared, prepared, steps, options, hooks); });
+  const bool resumed = ranks.any(files && files->resumed());
+  Session session{
+      shared.config, std::move(prepared), steps, resumed, files ? &*files : nullptr, options, hooks,
+      ranks};
   return session.run();
 }
 

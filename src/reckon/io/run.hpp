@@ -56,7 +56,8 @@ struct RunReport {
   Measurement last;                  ///< at the last step
   double energy_error{0};            ///< balance error [J]
   double energy_turnover{0};         ///< stored, lost and come in, as a measure for it [J]
-  std::filesystem::path checkpoint;  ///< the latest
+  std::filesystem::path checkpoint;  ///< the latest; on the root
+  std::string performance;           ///< see performance_table; on the root
 };
 
 /// An Error that came up while steps were being made: not the input's fault, as far as is known.
@@ -68,8 +69,10 @@ class RunFailure : public Error {
 /// Runs a scene from start or checkpoint to its end, and keeps the folder's files. Whether it runs
 /// in one go or is interrupted and resumed, history, fields and checkpoints end up the same to the
 /// last bit. Throws Error before the first step for a folder or checkpoint that does not fit, and
-/// RunFailure after it. `scene` is sound and loaded.
+/// RunFailure after it, on all ranks. Collective; `reading` and `scene`, which is sound and loaded,
+/// count on the root only, which alone writes files.
 RunReport run_scene(const SceneReading& reading, const LoadedScene& scene,
-                    const RunOptions& options, const RunHooks& hooks);
+                    const RunOptions& options, const RunHooks& hooks,
+                    const Communicator& ranks = {});
 
 }  // namespace reckon

@@ -102,7 +102,7 @@ void RunFolder::remove_run() const {
     }
     std::filesystem::remove(index(kind));
   }
-  for (const auto& file : {scene(), resolved(), history(), log(), json()}) {
+  for (const auto& file : {scene(), resolved(), history(), log(), json(), performance()}) {
     std::filesystem::remove(file);
   }
 }

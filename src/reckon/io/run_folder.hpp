@@ -19,6 +19,7 @@ namespace reckon {
 ///   fields/grains_0000001000.vtp ...            what they list
 ///   checkpoints/step_0000001000.h5 ...
 ///   run.json run.log      what ran, where, how long
+///   performance.json      time per phase and counters, for every rank
 class RunFolder {
  public:
   explicit RunFolder(std::filesystem::path root) : root_{std::move(root)} {}
@@ -29,6 +30,7 @@ class RunFolder {
   [[nodiscard]] std::filesystem::path history() const { return root_ / "history.csv"; }
   [[nodiscard]] std::filesystem::path log() const { return root_ / "run.log"; }
   [[nodiscard]] std::filesystem::path json() const { return root_ / "run.json"; }
+  [[nodiscard]] std::filesystem::path performance() const { return root_ / "performance.json"; }
   [[nodiscard]] std::filesystem::path index(std::string_view kind) const;
   /// `kind` is grains, contacts or surfaces; the name is relative to the root.
   [[nodiscard]] static std::string field_name(std::string_view kind, std::uint64_t step);

@@ -6,8 +6,6 @@
 #include <functional>
 #include <utility>
 
-#include "reckon/io/fields.hpp"
-
 namespace reckon {
 namespace {
 
@@ -27,18 +25,21 @@ std::function<bool(std::uint64_t)> rows_to_keep(const OutputConfig& config,
 
 }  // namespace
 
-RunOutputs::RunOutputs(RunFolder folder, const OutputConfig& config, const SimulationSetup& setup,
+RunOutputs::RunOutputs(RunFolder folder, const LoadedScene& scene, const PreparedScene& prepared,
                        std::optional<std::uint64_t> resumed_at)
     : folder_{std::move(folder)},
-      config_{config},
-      time_step_{setup.time_step},
-      history_{folder_.history(), setup.walls, rows_to_keep(config, resumed_at)} {
+      config_{scene.config.output},
+      shapes_{scene.shapes},
+      read_shape_{scene.read_shape},
+      density_{scene.config.material.density},
+      time_step_{prepared.time_step.step},
+      history_{folder_.history(), prepared.setup.walls, rows_to_keep(config_, resumed_at)} {
   if (!resumed_at) return;
   take_over("grains", *resumed_at, grains_);
   take_over("contacts", *resumed_at, contacts_);
   take_over("surfaces", *resumed_at, surfaces_);
-  if (belongs(*resumed_at, config.history_interval, *resumed_at)) last_row_ = resumed_at;
-  if (belongs(*resumed_at, config.fields_interval, *resumed_at)) last_frame_ = resumed_at;
+  if (belongs(*resumed_at, config_.history_interval, *resumed_at)) last_row_ = resumed_at;
+  if (belongs(*resumed_at, config_.fields_interval, *resumed_at)) last_frame_ = resumed_at;
 }
 
 void RunOutputs::append_history(const Measurement& measurement, double energy_at_start) {
@@ -46,23 +47,22 @@ void RunOutputs::append_history(const Measurement& measurement, double energy_at
   last_row_ = measurement.step;
 }
 
-void RunOutputs::write_fields(Simulation& simulation) {
-  const std::uint64_t step = simulation.step_number();
-  const std::vector<ContactRecord> contacts = simulation.contacts();
-  write_grain_points(folder_.root() / RunFolder::field_name("grains", step), simulation, contacts);
-  add_to_index("grains", step, grains_);
+void RunOutputs::write_fields(const FieldsAtStep& fields) {
+  const auto file = [&](std::string_view kind) {
+    return folder_.root() / RunFolder::field_name(kind, fields.step);
+  };
+  write_grain_points(file("grains"), fields, shapes_, density_);
+  add_to_index("grains", fields.step, grains_);
   if (config_.contacts) {
-    write_contact_lines(folder_.root() / RunFolder::field_name("contacts", step), contacts,
-                        simulation.time());
-    add_to_index("contacts", step, contacts_);
+    write_contact_lines(file("contacts"), fields.contacts, fields.time);
+    add_to_index("contacts", fields.step, contacts_);
   }
   if (config_.surfaces) {
-    if (surface_meshes_.empty()) surface_meshes_ = surface_meshes(*simulation.setup().shapes);
-    write_grain_surfaces(folder_.root() / RunFolder::field_name("surfaces", step),
-                         simulation.state().grains, surface_meshes_, simulation.time());
-    add_to_index("surfaces", step, surfaces_);
+    if (surface_meshes_.empty()) surface_meshes_ = surface_meshes(fields.grains, read_shape_);
+    write_grain_surfaces(file("surfaces"), fields.grains, surface_meshes_, fields.time);
+    add_to_index("surfaces", fields.step, surfaces_);
   }
-  last_frame_ = step;
+  last_frame_ = fields.step;
 }
 
 void RunOutputs::add_to_index(std::string_view kind, std::uint64_t step,

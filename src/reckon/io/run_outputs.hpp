@@ -9,10 +9,10 @@
 
 #include "reckon/avatar/triangle_mesh.hpp"
 #include "reckon/core/vtk_xml.hpp"
+#include "reckon/io/fields.hpp"
 #include "reckon/io/history.hpp"
 #include "reckon/io/run_folder.hpp"
-#include "reckon/simulation/config.hpp"
-#include "reckon/simulation/simulation.hpp"
+#include "reckon/simulation/setup.hpp"
 
 namespace reckon {
 
@@ -26,11 +26,11 @@ namespace reckon {
 /// files become those of a run without a break.
 class RunOutputs {
  public:
-  RunOutputs(RunFolder folder, const OutputConfig& config, const SimulationSetup& setup,
+  RunOutputs(RunFolder folder, const LoadedScene& scene, const PreparedScene& prepared,
              std::optional<std::uint64_t> resumed_at);
 
   void append_history(const Measurement& measurement, double energy_at_start);
-  void write_fields(Simulation& simulation);
+  void write_fields(const FieldsAtStep& fields);
 
   /// Whether the last row or files written are those of this step.
   [[nodiscard]] bool history_has(std::uint64_t step) const { return last_row_ == step; }
@@ -42,6 +42,9 @@ class RunOutputs {
 
   RunFolder folder_;
   OutputConfig config_;
+  std::vector<ShapeSummary> shapes_;
+  ShapeStore::Read read_shape_;
+  double density_;
   double time_step_;
   HistoryFile history_;
   std::vector<PvdEntry> grains_;

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "reckon/core/error.hpp"
-#include "reckon/core/exact_sum.hpp"
 #include "reckon/io/history.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/io/json_writer.hpp"
@@ -36,19 +35,22 @@ constexpr double disk_rate = 2e8;  // [bytes/s]
 
 void describe_assembly(const LoadedScene& scene, const PreparedScene& prepared, RunPlan& plan) {
   plan.grains = scene.grains.size();
-  plan.shapes = scene.shapes->size();
+  plan.shapes = scene.shapes.size();
   plan.walls = prepared.setup.walls.size();
   plan.smallest_diameter = std::numeric_limits<double>::infinity();
   std::set<ShapeId> in_use;
   for (const GrainState& grain : scene.grains) {
-    const Shape& shape = (*scene.shapes)[grain.shape.get()];
+    const ShapeOutline& shape = scene.shapes[grain.shape.get()].outline;
     in_use.insert(grain.shape);
-    plan.nodes += shape.nodes.size();
+    plan.nodes += shape.nodes;
     plan.solid_mass += scene.config.material.density * shape.mass.volume;
     plan.smallest_diameter = std::min(plan.smallest_diameter, 2 * shape.bounding_radius);
     plan.largest_diameter = std::max(plan.largest_diameter, 2 * shape.bounding_radius);
   }
   plan.shapes_in_use = in_use.size();
+  for (const ShapeId shape : in_use) {
+    plan.memory_shapes += scene.shapes[shape.get()].outline.memory();
+  }
   plan.bin_edge = plan.largest_diameter + prepared.setup.skin;
   std::set<std::array<double, 3>> bins;
   for (const GrainState& grain : scene.grains) {
@@ -58,12 +60,7 @@ void describe_assembly(const LoadedScene& scene, const PreparedScene& prepared, 
   plan.occupied_bins = bins.size();
 }
 
-void estimate_memory(const LoadedScene& scene, RunPlan& plan) {
-  for (const Shape& shape : *scene.shapes) {
-    plan.memory_shapes += shape.level_set.values.size() * sizeof(float) +
-                          shape.nodes.size() * 4 * sizeof(double) +
-                          shape.clusters.size() * sizeof(NodeCluster);
-  }
+void estimate_memory(RunPlan& plan) {
   constexpr std::uint64_t grain =
       2 * sizeof(GrainState) + sizeof(GrainFrame) + sizeof(Load) + sizeof(Vec3) + 64 /* bins */;
   constexpr std::uint64_t pair =
@@ -93,10 +90,9 @@ void estimate_output(const LoadedScene& scene, std::uint64_t row_bytes, RunPlan&
   if (output.surfaces) {
     for (const GrainState& grain : scene.grains) {
       // Marching cubes cuts about two and a half triangles per square of the grid.
-      const Shape& shape = (*scene.shapes)[grain.shape.get()];
-      const double spacing = shape.level_set.spacing;
-      frame += static_cast<std::uint64_t>(2.5 * exact_sum(shape.nodes.area) / (spacing * spacing) *
-                                          triangle);
+      const ShapeSummary& shape = scene.shapes[grain.shape.get()];
+      const double spacing = shape.outline.spacing;
+      frame += static_cast<std::uint64_t>(2.5 * shape.node_area / (spacing * spacing) * triangle);
     }
   }
   const std::uint64_t checkpoint =
@@ -143,10 +139,10 @@ RunPlan plan_run(const LoadedScene& scene, double timing_seconds) {
   plan.time_step = prepared.time_step;
   plan.step_fraction = scene.config.time.step_fraction;
   plan.limiting_shape =
-      (*scene.shapes)[scene.grains[prepared.time_step.limiting.get()].shape.get()].name;
+      scene.shapes[scene.grains[prepared.time_step.limiting.get()].shape.get()].name;
   plan.steps = prepared.steps;
   plan.simulated_time = static_cast<double>(plan.steps) * prepared.time_step.step;
-  estimate_memory(scene, plan);
+  estimate_memory(plan);
   plan.history_rows = 1 + occasions(plan.steps, scene.config.output.history_interval);
   std::uint64_t row_bytes = 0;
   time_steps(prepared, timing_seconds, plan, row_bytes);

@@ -3,7 +3,6 @@
 #include "reckon/io/run_record.hpp"
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,20 +13,11 @@
 #include "reckon/core/build_info.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/core/peak_memory.hpp"
 #include "reckon/io/json_writer.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
-
-namespace {
-
-std::uint64_t peak_memory() {
-  rusage usage{};
-  if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
-}
-
-}  // namespace
 
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
@@ -83,6 +73,7 @@ void write_run_record(const std::filesystem::path& path, const RunRecord& record
   json.value("steps_per_s", record.wall_seconds > 0 ? steps_done / record.wall_seconds : 0);
   json.value("list_rebuilds", record.list_rebuilds);
   json.value("peak_memory_bytes", peak_memory());
+  json.value("ranks", record.ranks);
   json.value("threads", thread_count());
   json.value("host", host);
   json.end();

@@ -35,6 +35,7 @@ struct RunRecord {
   std::string scene;
   std::uint64_t grains{0};
   std::uint64_t shapes{0};
+  std::uint64_t ranks{1};
   double time_step{0};  ///< [s]
   std::uint64_t first_step{0};
   std::uint64_t step{0};

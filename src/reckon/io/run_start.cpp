@@ -28,9 +28,7 @@ Checkpoint first_checkpoint(const LoadedScene& scene, const PreparedScene& prepa
   checkpoint.time_step = prepared.time_step.step;
   // Without its length: a run that is extended must leave the same checkpoints as a long one.
   checkpoint.scene = resolved_scene(scene.config, prepared, std::nullopt);
-  for (const Shape& shape : *scene.shapes) {
-    checkpoint.shape_digests.push_back(shape_digest(shape));
-  }
+  for (const ShapeSummary& shape : scene.shapes) checkpoint.shape_digests.push_back(shape.digest);
   XxHash64 hash;
   hash.update(std::as_bytes(std::span{scene.own_accelerations}));
   checkpoint.acceleration_digest = hash.digest();

@@ -5,12 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "reckon/avatar/library_file.hpp"
+#include "reckon/avatar/shape_catalog.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/vtk_xml.hpp"
 #include "reckon/io/checkpoint.hpp"
@@ -21,23 +19,23 @@ namespace reckon {
 namespace {
 
 /// The shapes that a checkpoint was made with, from the files that its scene names.
-ShapeLibrary load_shapes_of(const Checkpoint& checkpoint, const std::string& place) {
+ShapeCatalog shapes_of(const Checkpoint& checkpoint, const std::string& place) {
   const SceneReading reading = read_scene_text(checkpoint.scene, "/");
-  ShapeLibrary shapes;
+  ShapeCatalog catalog;
   for (const GrainsConfig& set : reading.config.grains) {
-    if (set.library.empty()) continue;  // the file is gone; told below
-    ShapeLibrary library = load_library(set.library, set.voxel);
-    std::move(library.begin(), library.end(), std::back_inserter(shapes));
+    if (!set.library.empty()) catalog.add(set.library, set.voxel);  // else it is gone; told below
   }
   std::vector<std::uint64_t> digests;
-  for (const Shape& shape : shapes) digests.push_back(shape_digest(shape));
+  for (std::size_t s = 0; s < catalog.size(); ++s) {
+    digests.push_back(catalog.summary(ShapeId{static_cast<std::uint32_t>(s)}).digest);
+  }
   if (digests != checkpoint.shape_digests) {
     throw Error{{.place = place,
                  .problem = "the shapes of this run cannot be found",
                  .reason = "a shape library named in scene_resolved.toml is gone or has changed",
                  .fix = "Put it back."}};
   }
-  return shapes;
+  return catalog;
 }
 
 }  // namespace
@@ -64,7 +62,11 @@ SurfaceFiles write_run_surfaces(const RunFolder& folder, std::optional<std::uint
   double time_step = 0;
   for (const std::uint64_t at : steps) {
     const Checkpoint checkpoint = read_checkpoint(folder.checkpoint(at));
-    if (surfaces.empty()) surfaces = surface_meshes(load_shapes_of(checkpoint, place));
+    if (surfaces.empty()) {
+      const ShapeCatalog shapes = shapes_of(checkpoint, place);
+      surfaces = surface_meshes(checkpoint.state.grains,
+                                [&](ShapeId shape) { return shapes.read(shape); });
+    }
     time_step = checkpoint.time_step;
     write_grain_surfaces(folder.root() / RunFolder::field_name("surfaces", at),
                          checkpoint.state.grains, surfaces, static_cast<double>(at) * time_step);

@@ -193,6 +193,21 @@ void describe(Visitor& v, NeighborConfig& neighbor) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, ParallelConfig& parallel) {
+  constexpr std::array decompositions{
+      Choice{"balanced", DecompositionKind::balanced}, Choice{"grid", DecompositionKind::grid},
+      Choice{"bins", DecompositionKind::bins}, Choice{"replicated", DecompositionKind::replicated}};
+  v.choice(
+      {.name = "decomposition",
+       .meaning = "How ranks share the grains: `balanced`: regions of equal work by recursive "
+                  "bisection, for any arrangement; `grid`: the equal blocks of Tan and Sitar "
+                  "(2024); `bins`: `grid` with the naive walk over all bins; `replicated`: every "
+                  "rank sees all grains and tests all pairs. The last two are slow references. "
+                  "All give the same results."},
+      parallel.decomposition, decompositions);
+}
+
+template <class Visitor>
 void describe(Visitor& v, OutputConfig& output) {
   v.integer({.name = "history_interval",
              .range = at_least(0),
@@ -235,6 +250,9 @@ void describe(Visitor& v, SceneConfig& scene) {
   v.table({.name = "time", .meaning = "How long to run."}, [&] { describe(v, scene.time); });
   v.table({.name = "neighbor", .meaning = "How neighbours are found."},
           [&] { describe(v, scene.neighbor); });
+  v.table({.name = "parallel",
+           .meaning = "How several processes (`mpirun -np N reckon run ...`) share the work."},
+          [&] { describe(v, scene.parallel); });
   v.table({.name = "output", .meaning = "What the run writes and how often."},
           [&] { describe(v, scene.output); });
 }

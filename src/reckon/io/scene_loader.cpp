@@ -7,13 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
 #include <utility>
 
-#include "reckon/avatar/library_file.hpp"
+#include "reckon/avatar/shape_catalog.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/io/nearest_name.hpp"
 #include "reckon/io/number_table.hpp"
@@ -30,11 +29,13 @@ class Loader {
 
   LoadedScene load() {
     const SceneConfig& config = reading_.config;
-    LoadedScene scene{.config = config, .shapes = {}, .grains = {}, .own_accelerations = {}};
+    LoadedScene scene;
+    scene.config = config;
     for (std::size_t set = 0; set < config.grains.size(); ++set) {
       load_set(config.grains[set], fmt::format("grains[{}]", set), scene);
     }
-    scene.shapes = std::make_shared<const ShapeLibrary>(std::move(shapes_));
+    scene.shapes = std::move(shapes_);
+    scene.read_shape = [catalog = catalog_](ShapeId shape) { return catalog->read(shape); };
     load_accelerations(scene);
     if (reading_.faults.empty() && scene.grains.empty()) {
       fault("grains", "the scene has no grains", "Place at least one.");
@@ -50,7 +51,7 @@ class Loader {
   /// The time step depends on the shapes, so what follows from it is known only here.
   void check_time_step(const LoadedScene& scene) {
     const TimeConfig& time = scene.config.time;
-    const double step = choose_time_step(scene.config, scene.grains, *scene.shapes).step;
+    const double step = choose_time_step(scene.config, scene.grains, scene.shapes).step;
     const std::string key = time.duration ? "time.duration" : "time.steps";
     if (!(step > 0 && std::isfinite(step))) {
       return fault(key, fmt::format("the rule for the time step gives {}", step),
@@ -69,11 +70,13 @@ class Loader {
     if (set.library.empty()) return;  // its fault is known
     const std::size_t first_shape = shapes_.size();
     const bool loaded = attempt(path + ".library", [&] {
-      ShapeLibrary library = load_library(set.library, set.voxel);
-      std::move(library.begin(), library.end(), std::back_inserter(shapes_));
+      catalog_->add(set.library, set.voxel);
+      for (std::size_t s = first_shape; s < catalog_->size(); ++s) {
+        shapes_.push_back(catalog_->summary(ShapeId{static_cast<std::uint32_t>(s)}));
+      }
     });
     if (!loaded) return;
-    const std::span<const Shape> shapes = std::span<const Shape>{shapes_}.subspan(first_shape);
+    const auto shapes = std::span<const ShapeSummary>{shapes_}.subspan(first_shape);
     const auto first_id = static_cast<std::uint32_t>(scene.grains.size());
     const auto shape_in_turn = [&](std::size_t n) {
       return ShapeId{static_cast<std::uint32_t>(first_shape + n % shapes.size())};
@@ -82,7 +85,9 @@ class Loader {
     if (const auto* fill = std::get_if<FillPlacement>(&set.placement)) {
       if (has_fault_below(path)) return;
       attempt(path + ".fill", [&] {
-        placed = fill_region(*fill, shapes, ShapeId{static_cast<std::uint32_t>(first_shape)},
+        std::vector<ShapeView> views;
+        for (const ShapeSummary& shape : shapes) views.emplace_back(shape.outline);
+        placed = fill_region(*fill, views, ShapeId{static_cast<std::uint32_t>(first_shape)},
                              GrainId{first_id}, reading_.config.seed);
       });
     } else if (const auto* each = std::get_if<std::vector<ExplicitGrain>>(&set.placement)) {
@@ -117,7 +122,8 @@ class Loader {
   }
 
   void find_shape_of(const ExplicitGrain& grain, const std::string& key,
-                     std::span<const Shape> shapes, std::size_t first_shape, GrainState& state) {
+                     std::span<const ShapeSummary> shapes, std::size_t first_shape,
+                     GrainState& state) {
     std::vector<std::string> names;
     for (std::size_t s = 0; s < shapes.size(); ++s) {
       if (shapes[s].name == grain.shape) {
@@ -219,7 +225,8 @@ class Loader {
   }
 
   SceneReading& reading_;
-  ShapeLibrary shapes_;
+  std::shared_ptr<ShapeCatalog> catalog_{std::make_shared<ShapeCatalog>()};
+  std::vector<ShapeSummary> shapes_;
 };
 
 }  // namespace

@@ -50,7 +50,14 @@ class Communicator {
   [[nodiscard]] int size() const;
   [[nodiscard]] bool is_root() const { return rank() == 0; }
 
+  /// Those of these ranks that share this rank's memory. Collective.
+  [[nodiscard]] Communicator machine() const;
+
   void barrier() const;
+  /// Waits up to `seconds` for all ranks to call this; returns whether they did. May be called
+  /// when other ranks are elsewhere, once in a communicator's life: to end a failed run in order if
+  /// all ranks have failed, and by abort() if not.
+  [[nodiscard]] bool meet(double seconds) const;
   /// Replaces each element by its sum over all ranks.
   void sum(std::span<std::int64_t> values) const;
   /// Replaces each word by the bitwise or over all ranks: joins arrays whose parts no two ranks

@@ -3,10 +3,12 @@
 #include <mpi.h>
 
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "reckon/core/error.hpp"
@@ -45,6 +47,33 @@ void RepeatedExchange::finish() {
 Communicator::Communicator() = default;
 int Communicator::rank() const { return impl_ ? impl_->rank : 0; }
 int Communicator::size() const { return impl_ ? impl_->size : 1; }
+
+Communicator Communicator::machine() const {
+  if (!impl_) return *this;
+  MPI_Comm handle = MPI_COMM_NULL;
+  MPI_Comm_split_type(impl_->handle, MPI_COMM_TYPE_SHARED, impl_->rank, MPI_INFO_NULL, &handle);
+  auto release = [](Impl* impl) {
+    MPI_Comm_free(&impl->handle);
+    delete impl;
+  };
+  std::shared_ptr<Impl> impl{new Impl{handle, 0, 1}, release};
+  MPI_Comm_rank(handle, &impl->rank);
+  MPI_Comm_size(handle, &impl->size);
+  return Communicator{std::move(impl)};
+}
+
+bool Communicator::meet(double seconds) const {
+  if (!impl_) return true;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(impl_->handle, &request);
+  const double end = MPI_Wtime() + seconds;
+  int done = 0;
+  do {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  } while (done == 0 && MPI_Wtime() < end);
+  return done != 0;
+}
 
 void Communicator::barrier() const {
   if (impl_) MPI_Barrier(impl_->handle);

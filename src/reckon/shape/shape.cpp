@@ -56,6 +56,28 @@ std::vector<NodeCluster> make_clusters(const SurfaceNodes& nodes, std::uint32_t 
   return clusters;
 }
 
+ShapeOutline outline_of(const Shape& shape) {
+  return {shape.level_set.dims,
+          shape.level_set.spacing,
+          shape.level_set.origin_body,
+          shape.nodes.size(),
+          shape.mass,
+          shape.bounding_radius,
+          shape.lipschitz};
+}
+
+std::uint64_t ShapeOutline::memory() const {
+  const std::uint64_t clusters = (nodes + nodes_per_cluster - 1) / nodes_per_cluster;
+  return values() * sizeof(float) + nodes * 4 * sizeof(double) + clusters * sizeof(NodeCluster);
+}
+
+ShapeView::ShapeView(const ShapeOutline& outline)
+    : mass{outline.mass}, bounding_radius{outline.bounding_radius}, lipschitz{outline.lipschitz} {
+  level_set.dims = outline.dims;
+  level_set.spacing = outline.spacing;
+  level_set.origin_body = outline.origin_body;
+}
+
 ShapeView::ShapeView(const Shape& shape)
     : level_set{shape.level_set},
       node_x{shape.nodes.x},

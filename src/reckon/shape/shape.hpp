@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -71,6 +72,25 @@ struct Shape {
 
 inline constexpr std::uint32_t nodes_per_cluster = 16;
 
+/// What is known of a shape without its grid and nodes, as plain numbers that ranks can send.
+struct ShapeOutline {
+  std::array<std::int32_t, 3> dims{0, 0, 0};  ///< of the grid, as in LevelSet
+  double spacing{0};                          ///< of the grid [m]
+  Vec3 origin_body;                           ///< of the grid [m]
+  std::uint64_t nodes{0};                     ///< how many
+  MassProperties mass;
+  double bounding_radius{0};  ///< [m]
+  double lipschitz{1};
+
+  [[nodiscard]] std::uint64_t values() const {
+    return static_cast<std::uint64_t>(dims[0]) * static_cast<std::uint64_t>(dims[1]) *
+           static_cast<std::uint64_t>(dims[2]);
+  }
+  /// What grid, nodes and clusters take [bytes].
+  [[nodiscard]] std::uint64_t memory() const;
+};
+[[nodiscard]] ShapeOutline outline_of(const Shape& shape);
+
 /// Groups the nodes, in their order, into runs of at most `per_cluster`, each with a sphere that
 /// holds its nodes (rounded outward).
 [[nodiscard]] std::vector<NodeCluster> make_clusters(const SurfaceNodes& nodes,
@@ -92,6 +112,8 @@ struct ShapeView {
 
   ShapeView() = default;
   ShapeView(const Shape& shape);  // NOLINT(google-explicit-constructor): a view, like span
+  /// Without grid and nodes.
+  explicit ShapeView(const ShapeOutline& outline);
 };
 
 /// All shapes of a run; a ShapeId is a place in it.

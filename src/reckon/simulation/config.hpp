@@ -10,6 +10,7 @@
 
 #include "reckon/boundary/wall.hpp"
 #include "reckon/contact/contact_settings.hpp"
+#include "reckon/domain/decomposition.hpp"
 #include "reckon/math/vec3.hpp"
 
 namespace reckon {
@@ -121,6 +122,11 @@ struct NeighborConfig {
   ContactEngine engine{ContactEngine::near};  ///< changes speed, never results
 };
 
+/// How several processes share the work. Changes speed, never results.
+struct ParallelConfig {
+  DecompositionKind decomposition{DecompositionKind::balanced};
+};
+
 struct OutputConfig {
   std::uint64_t history_interval{100};   ///< steps; 0: never
   std::uint64_t fields_interval{0};      ///< steps between ParaView files; 0: only start and end
@@ -139,6 +145,7 @@ struct SceneConfig {
   std::vector<GrainsConfig> grains;
   TimeConfig time;
   NeighborConfig neighbor;
+  ParallelConfig parallel;
   OutputConfig output;
 };
 

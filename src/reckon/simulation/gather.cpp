@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "reckon/core/peak_memory.hpp"
 #include "reckon/domain/packing.hpp"
+#include "reckon/parallel/threads.hpp"
 #include "reckon/simulation/simulation.hpp"
 
 namespace reckon {
@@ -67,10 +69,17 @@ Vec3 foot_on_wall(const Wall& wall, const WallPose& pose, const Vec3& center) {
 
 }  // namespace
 
-SimulationState Simulation::state() const {
-  const Communicator& ranks = distribution_.ranks();
+std::vector<GrainState> Simulation::grain_states() const {
   std::vector<GrainState> own;
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) own.push_back(grains_.state(slot));
+  std::vector<GrainState> all = gather(distribution_.ranks(), own);
+  std::sort(all.begin(), all.end(),
+            [](const GrainState& a, const GrainState& b) { return a.id < b.id; });
+  return all;
+}
+
+SimulationState Simulation::state() const {
+  const Communicator& ranks = distribution_.ranks();
   // A pair that two ranks share is told by the owner of its first grain.
   std::vector<PairSprings> own_springs;
   std::vector<GrainId> own_ids = grains_.id;
@@ -82,7 +91,7 @@ SimulationState Simulation::state() const {
   }
   SimulationState state;
   state.step = step_;
-  state.grains = gather(ranks, own);
+  state.grains = grain_states();
   state.pair_springs = gather_springs<PairSprings, PairKey>(
       ranks, own_springs,
       [](const PairSprings& p) {
@@ -99,8 +108,6 @@ SimulationState Simulation::state() const {
       [](const WallKey& key) {
         return WallSprings{key.grain, key.wall, {}};
       });
-  std::sort(state.grains.begin(), state.grains.end(),
-            [](const GrainState& a, const GrainState& b) { return a.id < b.id; });
   std::sort(state.pair_springs.begin(), state.pair_springs.end(),
             [](const PairSprings& p, const PairSprings& q) {
               return p.id_a != q.id_a ? p.id_a < q.id_a : p.id_b < q.id_b;
@@ -110,6 +117,17 @@ SimulationState Simulation::state() const {
               return s.grain != t.grain ? s.grain < t.grain : s.wall < t.wall;
             });
   return state;
+}
+
+std::vector<RankPerformance> Simulation::performance() const {
+  RankPerformance own = done_;
+  own.phases = phase_times_;
+  own.communication = distribution_.counters();
+  own.list_rebuilds = list_rebuilds_;
+  own.peak_memory = peak_memory();
+  own.shape_bytes = setup_.shapes.resident_bytes();
+  own.threads = static_cast<std::uint64_t>(thread_count());
+  return gather(distribution_.ranks(), std::vector<RankPerformance>{own});
 }
 
 std::vector<ContactRecord> Simulation::contacts() {

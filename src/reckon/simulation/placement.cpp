@@ -55,10 +55,10 @@ Quaternion random_orientation(std::uint64_t seed, GrainId grain) {
   return normalized(Quaternion{b * second.cos, a * first.sin, a * first.cos, b * second.sin});
 }
 
-std::vector<GrainState> fill_region(const FillPlacement& fill, std::span<const Shape> shapes,
+std::vector<GrainState> fill_region(const FillPlacement& fill, std::span<const ShapeView> shapes,
                                     ShapeId first_shape, GrainId first_id, std::uint64_t seed) {
   double largest = 0;
-  for (const Shape& shape : shapes) largest = std::max(largest, shape.bounding_radius);
+  for (const ShapeView& shape : shapes) largest = std::max(largest, shape.bounding_radius);
   const GridFrame frame = frame_of(fill);
   constexpr double spacing_in_radii = 2.2;
   constexpr double jitter_in_radii = 0.1;  // (spacing - 2) / 2: spheres of neighbours never meet

@@ -16,7 +16,7 @@ namespace reckon {
 /// library; ids start at `first_id`. Depends on nothing but its arguments. Throws Error when the
 /// region cannot hold the count.
 [[nodiscard]] std::vector<GrainState> fill_region(const FillPlacement& fill,
-                                                  std::span<const Shape> shapes,
+                                                  std::span<const ShapeView> shapes,
                                                   ShapeId first_shape, GrainId first_id,
                                                   std::uint64_t seed);
 

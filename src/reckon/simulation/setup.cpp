@@ -58,16 +58,18 @@ std::vector<Wall> make_walls(const SceneConfig& scene) {
 
 }  // namespace
 
-PreparedScene prepare(const LoadedScene& scene) {
+PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
   const SceneConfig& config = scene.config;
   PreparedScene prepared;
-  prepared.time_step = choose_time_step(config, scene.grains, *scene.shapes);
+  prepared.time_step = choose_time_step(config, scene.grains, scene.shapes);
+  std::vector<ShapeOutline> outlines;
   double smallest_radius = std::numeric_limits<double>::infinity();
-  for (const Shape& shape : *scene.shapes) {
-    smallest_radius = std::min(smallest_radius, shape.bounding_radius);
+  for (const ShapeSummary& shape : scene.shapes) {
+    smallest_radius = std::min(smallest_radius, shape.outline.bounding_radius);
+    outlines.push_back(shape.outline);
   }
   prepared.setup = {
-      .shapes = scene.shapes,
+      .shapes = ShapeStore{ranks, std::move(outlines), scene.read_shape},
       .density = config.material.density,
       .contact = {make_law(config.contact, config.contact.normal_stiffness,
                            config.contact.shear_stiffness, true,
@@ -80,6 +82,7 @@ PreparedScene prepare(const LoadedScene& scene) {
       .time_step = prepared.time_step.step,
       .skin = config.neighbor.skin * smallest_radius,
       .engine = config.neighbor.engine,
+      .decomposition = config.parallel.decomposition,
   };
   prepared.initial.grains = scene.grains;
   prepared.steps = config.time.steps.value_or(static_cast<std::uint64_t>(

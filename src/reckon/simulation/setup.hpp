@@ -6,18 +6,20 @@
 #include <span>
 #include <vector>
 
+#include "reckon/avatar/library_file.hpp"
 #include "reckon/simulation/config.hpp"
 #include "reckon/simulation/simulation.hpp"
 #include "reckon/simulation/time_step.hpp"
 
 namespace reckon {
 
-/// A scene with everything that its files hold: what io hands over.
+/// A scene with everything that its files hold but the shapes' grids and nodes: what io hands over.
 struct LoadedScene {
   SceneConfig config;
-  std::shared_ptr<const ShapeLibrary> shapes;  ///< of all [[grains]] tables, one after another
-  std::vector<GrainState> grains;              ///< as placed, sorted by id, at rest or as set
-  std::vector<Vec3> own_accelerations;         ///< by grain id; empty: none [m/s^2]
+  std::vector<ShapeSummary> shapes;     ///< of all [[grains]] tables, one after another
+  ShapeStore::Read read_shape;          ///< brings the rest of a shape
+  std::vector<GrainState> grains;       ///< as placed, sorted by id, at rest or as set
+  std::vector<Vec3> own_accelerations;  ///< by grain id; empty: none [m/s^2]
 };
 
 /// A scene made ready to run.
@@ -28,7 +30,8 @@ struct PreparedScene {
   std::uint64_t steps{0};  ///< how many to run from the start
 };
 
-/// Turns config into walls, laws and a time step. `scene.config` is already validated.
-[[nodiscard]] PreparedScene prepare(const LoadedScene& scene);
+/// Turns config into walls, laws and a time step. `scene.config` is already validated. Collective:
+/// all ranks pass the same scene, but only the root's grains count.
+[[nodiscard]] PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks = {});
 
 }  // namespace reckon

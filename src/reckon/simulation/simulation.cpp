@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "reckon/core/error.hpp"
 #include "reckon/core/stopwatch.hpp"
@@ -33,7 +34,7 @@ std::uint64_t root_step(const Communicator& ranks, std::uint64_t step) {
 Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
                        const Communicator& ranks)
     : setup_{std::move(setup)},
-      shapes_{setup_.shapes->begin(), setup_.shapes->end()},
+      shapes_{setup_.shapes.views()},
       distribution_{ranks, setup_.decomposition, total_count(ranks, state.grains.size())},
       grain_contacts_{setup_.contact, setup_.engine},
       wall_contacts_{setup_.walls, setup_.engine},
@@ -55,6 +56,7 @@ void Simulation::step() {
   advance_grains();
   commit_springs();
   ++step_;
+  count_work();
   phase_times_.motion += watch.lap();
   agree_on_what_comes();
   phase_times_.agreement += watch.lap();
@@ -70,6 +72,7 @@ void Simulation::bring_up_to_date() {
     phase_times_.migration += watch.lap();
     distribution_.list_ghosts(grains_);
     phase_times_.border += watch.lap();
+    require_shapes();
     update_inertias();
     update_frames(grains_, shapes_, setup_.density, frames_);
     add_ghost_frames();
@@ -85,6 +88,14 @@ void Simulation::bring_up_to_date() {
   phase_times_.border += watch.lap();
   add_ghost_frames();
   phase_times_.frames += watch.lap();
+}
+
+/// Grids and nodes of the shapes of all grains that this rank sees.
+void Simulation::require_shapes() {
+  std::vector<bool> needed(shapes_.size(), false);
+  for (const ShapeId shape : grains_.shape) needed[shape.get()] = true;
+  for (const BorderGrain& ghost : distribution_.ghosts()) needed[ghost.shape.get()] = true;
+  setup_.shapes.require(needed);
 }
 
 void Simulation::update_inertias() {
@@ -115,6 +126,22 @@ void Simulation::rebuild_lists() {
   }
   lists_are_stale_ = false;
   ++list_rebuilds_;
+  const auto owned = static_cast<std::uint32_t>(grains_.size());
+  const auto& pairs = grain_contacts_.pairs();
+  shared_pairs_ = static_cast<std::uint64_t>(std::count_if(
+      pairs.begin(), pairs.end(),
+      [owned](const Pair& pair) { return pair.slot_a >= owned || pair.slot_b >= owned; }));
+  const std::vector<double> costs = grain_costs();
+  cost_ = std::accumulate(costs.begin(), costs.end(), 0.0);
+}
+
+void Simulation::count_work() {
+  ++done_.steps;
+  done_.grain_steps += grains_.size();
+  done_.ghost_steps += distribution_.ghosts().size();
+  done_.pair_steps += grain_contacts_.pairs().size();
+  done_.shared_pair_steps += shared_pairs_;
+  done_.work += cost_;
 }
 
 void Simulation::evaluate_contacts() {

@@ -9,18 +9,20 @@
 
 #include "reckon/boundary/wall_contacts.hpp"
 #include "reckon/contact/grain_contacts.hpp"
+#include "reckon/domain/shape_store.hpp"
 #include "reckon/grains/grain_frame.hpp"
 #include "reckon/motion/body_force.hpp"
 #include "reckon/motion/integrator.hpp"
 #include "reckon/simulation/distribution.hpp"
 #include "reckon/simulation/measurement.hpp"
+#include "reckon/simulation/performance.hpp"
 #include "reckon/simulation/phase_times.hpp"
 
 namespace reckon {
 
 /// What stays the same from the first step to the last.
 struct SimulationSetup {
-  std::shared_ptr<const ShapeLibrary> shapes;
+  ShapeStore shapes;
   double density{0};  ///< [kg/m^3]
   ContactSettings contact;
   std::vector<Wall> walls;
@@ -68,8 +70,13 @@ class Simulation {
   /// The contacts at the current step, pairs sorted by ids, then walls. Collective; whole on the
   /// root, empty elsewhere. Changes nothing.
   [[nodiscard]] std::vector<ContactRecord> contacts();
+  /// All grains, sorted by id. Collective; whole on the root, empty elsewhere.
+  [[nodiscard]] std::vector<GrainState> grain_states() const;
   /// Everything needed to go on. Collective; whole on the root, empty elsewhere.
   [[nodiscard]] SimulationState state() const;
+  /// What every rank did since the simulation began, by rank. Collective; whole on the root, empty
+  /// elsewhere.
+  [[nodiscard]] std::vector<RankPerformance> performance() const;
 
   [[nodiscard]] const SimulationSetup& setup() const { return setup_; }
   /// The grains that this rank owns.
@@ -88,9 +95,11 @@ class Simulation {
 
  private:
   void bring_up_to_date();
+  void require_shapes();
   void update_inertias();
   void add_ghost_frames();
   void rebuild_lists();
+  void count_work();
   void evaluate_contacts();
   [[nodiscard]] std::span<const GrainFrame> owned_frames() const {
     return std::span{frames_}.first(grains_.size());
@@ -108,7 +117,7 @@ class Simulation {
   [[nodiscard]] Load total_load(std::size_t slot, const Vec3& push) const;
 
   SimulationSetup setup_;
-  std::vector<ShapeView> shapes_;  // views into setup_.shapes
+  std::span<const ShapeView> shapes_;  // views of setup_.shapes
   Distribution distribution_;
   double largest_radius_{0};  // of all shapes [m]
   Grains grains_;
@@ -124,6 +133,9 @@ class Simulation {
   bool lists_are_stale_{true};
   std::uint64_t list_rebuilds_{0};
   PhaseTimes phase_times_;
+  RankPerformance done_;           // the counters of it that step() keeps
+  std::uint64_t shared_pairs_{0};  // listed pairs with a ghost
+  double cost_{0};                 // of the owned grains
 };
 
 }  // namespace reckon

@@ -6,34 +6,32 @@
 #include <cmath>
 #include <limits>
 
-#include "reckon/core/exact_sum.hpp"
-
 namespace reckon {
 namespace {
 
 constexpr double touching_share = 0.05;  // of a grain's surface or nodes
 
 double contact_stiffness(const ContactConfig& contact, double normal_stiffness, bool capped,
-                         const Shape& shape) {
+                         const ShapeSummary& shape) {
   if (contact.law == ContactLawKind::area) {
-    return normal_stiffness * touching_share * exact_sum(shape.nodes.area);
+    return normal_stiffness * touching_share * shape.node_area;
   }
   const double nodes = capped ? static_cast<double>(*contact.node_cap)
-                              : touching_share * static_cast<double>(shape.nodes.size());
+                              : touching_share * static_cast<double>(shape.outline.nodes);
   return normal_stiffness * std::max(nodes, 1.0);
 }
 
 }  // namespace
 
 TimeStepChoice choose_time_step(const SceneConfig& scene, std::span<const GrainState> grains,
-                                std::span<const Shape> shapes) {
+                                std::span<const ShapeSummary> shapes) {
   double normal_stiffness = scene.contact.normal_stiffness;
   for (const WallConfig& wall : scene.walls) {
     normal_stiffness = std::max(normal_stiffness, wall.normal_stiffness.value_or(0));
   }
   const bool capped = scene.contact.node_cap && scene.walls.empty();  // walls know no cap
   std::vector<double> stiffness;
-  for (const Shape& shape : shapes) {
+  for (const ShapeSummary& shape : shapes) {
     stiffness.push_back(contact_stiffness(scene.contact, normal_stiffness, capped, shape));
   }
   TimeStepChoice choice;
@@ -41,7 +39,7 @@ TimeStepChoice choose_time_step(const SceneConfig& scene, std::span<const GrainS
   for (const GrainState& grain : grains) {
     if (grain.prescribed) continue;
     const std::size_t s = grain.shape.get();
-    const double mass = scene.material.density * shapes[s].mass.volume;
+    const double mass = scene.material.density * shapes[s].outline.mass.volume;
     if (mass / stiffness[s] < slowest) {
       slowest = mass / stiffness[s];
       choice.limiting = grain.id;

@@ -4,9 +4,9 @@
 
 #include <span>
 
+#include "reckon/avatar/library_file.hpp"
 #include "reckon/core/id.hpp"
 #include "reckon/grains/grains.hpp"
-#include "reckon/shape/shape.hpp"
 #include "reckon/simulation/config.hpp"
 
 namespace reckon {
@@ -27,6 +27,6 @@ struct TimeStepChoice {
 /// walls, times node_cap. Walls count with their own stiffness.
 [[nodiscard]] TimeStepChoice choose_time_step(const SceneConfig& scene,
                                               std::span<const GrainState> grains,
-                                              std::span<const Shape> shapes);
+                                              std::span<const ShapeSummary> shapes);
 
 }  // namespace reckon

@@ -97,7 +97,7 @@ motion = { velocity = [0, 0, -0.4] }
     for (const auto& entry : std::filesystem::recursive_directory_iterator{folder}) {
       if (!entry.is_regular_file()) continue;
       const std::string name = entry.path().lexically_relative(folder).string();
-      if (name == "run.log" || name == "run.json") continue;
+      if (name == "run.log" || name == "run.json" || name == "performance.json") continue;
       files[name] = read_file(entry.path());
     }
     return files;

@@ -45,7 +45,7 @@ TEST_F(SceneLoaderTest, PlacesGrainsByHand) {
       "[[grains]]\nlibrary = 'grains.h5'\n"
       "[[grains.place]]\nposition = [0, 0, 0]\n");
   ASSERT_EQ(scene.grains.size(), 4U);
-  EXPECT_EQ(scene.shapes->size(), 4U);
+  EXPECT_EQ(scene.shapes.size(), 4U);
   EXPECT_EQ(scene.grains[0].orientation, (Quaternion{0, 0, 1, 0}));
   EXPECT_EQ(scene.grains[0].angular_velocity_body, (Vec3{0, 0, -5}));  // half a turn about y
   EXPECT_EQ(scene.grains[0].shape, ShapeId{0});

@@ -47,7 +47,7 @@ SimulationState dropped_grains(const ShapeLibrary& shapes, std::uint32_t count) 
   fill.region = BoxConfig{{-5, -5, 0}, {5, 5, 40}};
   fill.velocity = {0.3, 0.1, -8};
   SimulationState state;
-  state.grains = fill_region(fill, shapes, ShapeId{0}, GrainId{0}, 4);
+  state.grains = fill_region(fill, testing::views_of(shapes), ShapeId{0}, GrainId{0}, 4);
   return state;
 }
 
@@ -246,7 +246,7 @@ TEST(Placement, BoundingSpheresDoNotMeet) {
   fill.region = CylinderConfig{{1, 2, 3}, {1, 1, 0}, 8};
   fill.region_low = 0;
   fill.region_high = 40;
-  const auto grains = fill_region(fill, shapes, ShapeId{0}, GrainId{10}, 1);
+  const auto grains = fill_region(fill, testing::views_of(shapes), ShapeId{0}, GrainId{10}, 1);
   ASSERT_EQ(grains.size(), 200U);
   const Vec3 axis = normalized(Vec3{1, 1, 0});
   for (std::size_t a = 0; a < grains.size(); ++a) {
@@ -257,7 +257,9 @@ TEST(Placement, BoundingSpheresDoNotMeet) {
     }
   }
   fill.count = 100000;
-  EXPECT_THROW(static_cast<void>(fill_region(fill, shapes, ShapeId{0}, GrainId{0}, 1)), Error);
+  EXPECT_THROW(static_cast<void>(
+                   fill_region(fill, testing::views_of(shapes), ShapeId{0}, GrainId{0}, 1)),
+               Error);
 }
 
 }  // namespace

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/domain/shape_store.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "reckon/core/error.hpp"
+#include "reckon/parallel/shared_memory.hpp"
+
+namespace reckon {
+namespace {
+
+constexpr std::size_t alignment = 64;
+
+/// Gives out consecutive, aligned parts of a block; without a block it only counts.
+class Parts {
+ public:
+  explicit Parts(std::span<std::byte> block = {}) : block_{block} {}
+
+  template <class Value>
+  std::span<Value> take(std::uint64_t count) {
+    const std::size_t first = used_;
+    used_ += (count * sizeof(Value) + alignment - 1) / alignment * alignment;
+    if (block_.empty()) return {};
+    return {reinterpret_cast<Value*>(block_.data() + first), static_cast<std::size_t>(count)};
+  }
+  [[nodiscard]] std::size_t used() const { return used_; }
+
+ private:
+  std::span<std::byte> block_;
+  std::size_t used_{0};
+};
+
+struct ShapeParts {
+  std::span<float> values;
+  std::array<std::span<double>, 4> nodes;  // x, y, z, area
+  std::span<NodeCluster> clusters;
+};
+
+ShapeParts take_parts(Parts& parts, const ShapeOutline& outline) {
+  ShapeParts shape;
+  shape.values = parts.take<float>(outline.values());
+  for (auto& column : shape.nodes) column = parts.take<double>(outline.nodes);
+  shape.clusters =
+      parts.take<NodeCluster>((outline.nodes + nodes_per_cluster - 1) / nodes_per_cluster);
+  return shape;
+}
+
+template <class Value>
+void fill(std::span<Value> part, const std::vector<Value>& values) {
+  if (part.size() != values.size()) {
+    throw Error{{.problem = "a shape has changed while it was in use",
+                 .reason = "its arrays have another length than at the start",
+                 .fix = "Leave the shape library alone during a run."}};
+  }
+  std::copy(values.begin(), values.end(), part.begin());
+}
+
+void fill(const ShapeParts& parts, const Shape& shape) {
+  fill(parts.values, shape.level_set.values);
+  fill(parts.nodes[0], shape.nodes.x);
+  fill(parts.nodes[1], shape.nodes.y);
+  fill(parts.nodes[2], shape.nodes.z);
+  fill(parts.nodes[3], shape.nodes.area);
+  fill(parts.clusters, shape.clusters);
+}
+
+void show(const ShapeParts& parts, ShapeView& view) {
+  view.level_set.values = parts.values;
+  view.node_x = parts.nodes[0];
+  view.node_y = parts.nodes[1];
+  view.node_z = parts.nodes[2];
+  view.node_area = parts.nodes[3];
+  view.clusters = parts.clusters;
+}
+
+}  // namespace
+
+struct ShapeStore::State {
+  std::shared_ptr<const ShapeLibrary> library;
+  Communicator machine;
+  std::vector<ShapeOutline> outlines;
+  Read read;
+  std::vector<ShapeView> views;
+  std::vector<bool> resident;
+  std::vector<SharedMemory> blocks;
+  std::uint64_t resident_bytes{0};
+
+  void load(const std::vector<std::size_t>& wanted);
+};
+
+/// Collective on the machine.
+void ShapeStore::State::load(const std::vector<std::size_t>& wanted) {
+  Parts counter;
+  for (const std::size_t s : wanted) take_parts(counter, outlines[s]);
+  SharedMemory block{machine, counter.used()};
+  Parts parts{block.bytes()};
+  std::string problem;
+  for (const std::size_t s : wanted) {
+    const ShapeParts place = take_parts(parts, outlines[s]);
+    show(place, views[s]);
+    if (block.shared() && !machine.is_root()) continue;
+    if (!problem.empty()) continue;
+    try {
+      fill(place, read(ShapeId{static_cast<std::uint32_t>(s)}));
+    } catch (const std::exception& error) {
+      problem = error.what();
+    }
+  }
+  const bool failed = machine.any(!problem.empty());  // also: everything is written
+  if (failed) {
+    throw Error{{.problem = "the shapes that grains need could not be read",
+                 .reason = problem.empty() ? "another rank of this machine says why" : problem,
+                 .fix = {}}};
+  }
+  for (const std::size_t s : wanted) resident[s] = true;
+  resident_bytes += counter.used();
+  blocks.push_back(std::move(block));
+}
+
+ShapeStore::ShapeStore() : state_{std::make_shared<State>()} {}
+
+ShapeStore::ShapeStore(std::shared_ptr<const ShapeLibrary> library)
+    : state_{std::make_shared<State>()} {
+  state_->views.assign(library->begin(), library->end());
+  for (const Shape& shape : *library) state_->resident_bytes += outline_of(shape).memory();
+  state_->resident.assign(library->size(), true);
+  state_->library = std::move(library);
+}
+
+ShapeStore::ShapeStore(const Communicator& ranks, std::vector<ShapeOutline> outlines, Read read)
+    : state_{std::make_shared<State>()} {
+  state_->machine = ranks.machine();
+  state_->read = std::move(read);
+  for (const ShapeOutline& outline : outlines) state_->views.emplace_back(outline);
+  state_->resident.assign(outlines.size(), false);
+  state_->outlines = std::move(outlines);
+}
+
+std::span<const ShapeView> ShapeStore::views() const { return state_->views; }
+
+void ShapeStore::require(const std::vector<bool>& needed) {
+  if (state_->library) return;
+  std::vector<std::uint64_t> missing((needed.size() + 63) / 64, 0);
+  bool some_missing = false;
+  for (std::size_t s = 0; s < needed.size(); ++s) {
+    if (!needed[s] || state_->resident[s]) continue;
+    missing[s / 64] |= std::uint64_t{1} << (s % 64);
+    some_missing = true;
+  }
+  if (!state_->machine.any(some_missing)) return;
+  state_->machine.join(missing);
+  std::vector<std::size_t> wanted;
+  for (std::size_t s = 0; s < needed.size(); ++s) {
+    if ((missing[s / 64] >> (s % 64) & 1U) != 0) wanted.push_back(s);
+  }
+  state_->load(wanted);
+}
+
+std::uint64_t ShapeStore::resident_bytes() const { return state_->resident_bytes; }
+
+std::uint64_t ShapeStore::resident_shapes() const {
+  return static_cast<std::uint64_t>(
+      std::count(state_->resident.begin(), state_->resident.end(), true));
+}
+
+}  // namespace reckon

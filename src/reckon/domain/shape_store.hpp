@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "reckon/core/id.hpp"
+#include "reckon/parallel/communicator.hpp"
+#include "reckon/shape/shape.hpp"
+
+namespace reckon {
+
+/// The shapes of a simulation as kernels read them. Masses and radii of all shapes are there from
+/// the start; grids and nodes are read when a grain of this machine first needs them, once per
+/// machine, into memory that its ranks share. Copies mean the same store.
+class ShapeStore {
+ public:
+  using Read = std::function<Shape(ShapeId)>;
+
+  /// No shapes.
+  ShapeStore();
+  /// All shapes are at hand already, in this process.
+  ShapeStore(std::shared_ptr<const ShapeLibrary> library);  // NOLINT(google-explicit-constructor)
+  /// Collective. `outlines` are the same on all ranks; `read` is called on one rank per machine.
+  ShapeStore(const Communicator& ranks, std::vector<ShapeOutline> outlines, Read read);
+
+  /// By ShapeId. The views stay where they are; those of shapes that nobody has required have no
+  /// grid and no nodes.
+  [[nodiscard]] std::span<const ShapeView> views() const;
+
+  /// Collective. Makes sure that the shapes with a true flag are whole on this rank. Throws what
+  /// `read` throws, on all ranks of that machine.
+  void require(const std::vector<bool>& needed);
+
+  /// What grids, nodes and clusters of the shapes at hand take on this machine [bytes].
+  [[nodiscard]] std::uint64_t resident_bytes() const;
+  [[nodiscard]] std::uint64_t resident_shapes() const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace reckon

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reckon/core/error.hpp"
+#include "reckon/io/checkpoint.hpp"
+#include "reckon/io/run.hpp"
+#include "reckon/io/run_folder.hpp"
+#include "reckon/io/run_outputs.hpp"
+#include "reckon/io/run_record.hpp"
+#include "reckon/io/run_start.hpp"
+#include "reckon/simulation/performance.hpp"
+
+namespace reckon {
+
+/// All that a session writes into its folder. Lives on the root alone.
+class RunFiles {
+ public:
+  /// Takes hold of the folder and makes it ready. Throws Error as ready_folder does.
+  RunFiles(const SceneReading& reading, const LoadedScene& scene, const PreparedScene& prepared,
+           std::uint64_t steps, const RunOptions& options, const RunHooks& hooks);
+
+  [[nodiscard]] bool resumed() const { return resumed_; }
+  /// Where the session begins. To be taken once.
+  [[nodiscard]] SimulationState take_start();
+
+  void note(const std::string& text);       ///< in the log and to the caller
+  void log(const std::string& text) const;  ///< in the log alone
+  void begin(const Measurement& at_start);  ///< the first row of a fresh run
+  void append_history(const Measurement& measurement);
+  void write_fields(const FieldsAtStep& fields);
+  /// A checkpoint that the scene did not ask for gives way to the next one.
+  void write_checkpoint(SimulationState state);
+  void write_record(const std::string& status, const RunProgress& progress,
+                    std::span<const RankPerformance> performance);
+  /// Puts the latest checkpoint into the advice of an error, and the failure into the record.
+  [[nodiscard]] ErrorText fail(ErrorText text, const RunProgress& progress);
+
+  [[nodiscard]] bool history_has(std::uint64_t step) const { return outputs_->history_has(step); }
+  [[nodiscard]] bool fields_have(std::uint64_t step) const { return outputs_->fields_have(step); }
+  [[nodiscard]] std::optional<std::uint64_t> latest_checkpoint() const { return latest_; }
+  [[nodiscard]] std::filesystem::path checkpoint_file() const;
+  [[nodiscard]] const std::string& performance_text() const { return performance_text_; }
+  [[nodiscard]] double energy_at_start() const { return checkpoint_.energy_at_start; }
+
+ private:
+  const RunHooks& hooks_;
+  OutputConfig config_;
+  RunFolder folder_;
+  std::optional<FolderLock> lock_;
+  std::optional<RunLog> log_;
+  std::optional<RunOutputs> outputs_;
+  Checkpoint checkpoint_;  // all but its state
+  bool resumed_{false};
+  std::optional<std::uint64_t> latest_;
+  RunRecord record_;
+  std::string performance_text_;  // as of the last write_record
+};
+
+}  // namespace reckon
