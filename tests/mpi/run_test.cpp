@@ -3,6 +3,7 @@
 // `mpirun -np N reckon run`: files, restarts, failures and signals, as a user meets them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "cli/process.hpp"
+#include "reckon/io/history.hpp"
 #include "unit/io/run_scene_fixture.hpp"
 
 namespace reckon {
@@ -108,6 +110,26 @@ TEST_F(MpiRun, GoesOnWithAnotherNumberOfRanks) {
   const Outcome last = reckon(4, {"run", "scene.toml", "--out", "parts", "--resume"});
   ASSERT_EQ(last.code, 0) << last.err;
   expect_equal_folders(root_ / "whole", root_ / "parts");
+}
+
+TEST_F(MpiRun, GrainsThatLeaveAreCountedOnAnyNumberOfRanks) {
+  // Whoever comes down to the floor leaves; the plate presses the rest down.
+  write("leaky.toml",
+        scene_text("[[outflow]]\nplane = { point = [0, 0, \"1.1 mm\"], normal = [0, 0, 1] }\n" +
+                   std::string{usual}));
+  const Outcome one = reckon(1, {"run", "leaky.toml", "--out", "one"});
+  ASSERT_EQ(one.code, 0) << one.err;
+  ASSERT_EQ(reckon(3, {"run", "leaky.toml", "--out", "three", "--steps", "400"}).code, 0);
+  ASSERT_EQ(reckon(2, {"run", "leaky.toml", "--out", "three", "--resume"}).code, 0);
+  expect_equal_folders(root_ / "one", root_ / "three");
+  const HistoryTable history = read_history(root_ / "one" / "history.csv");
+  const auto column = [&](const std::string& name) {
+    return std::stod(history.rows.back()[static_cast<std::size_t>(
+        std::find(history.header.begin(), history.header.end(), name) - history.header.begin())]);
+  };
+  EXPECT_GT(column("departed"), 2);
+  EXPECT_LT(column("departed"), 24);
+  EXPECT_EQ(column("departed") + column("grains"), 24);
 }
 
 TEST_F(MpiRun, MoreRanksThanGrains) {

@@ -13,7 +13,7 @@
 namespace reckon {
 namespace {
 
-const Hdf5Kind kind{"checkpoint", 1};
+const Hdf5Kind kind{"checkpoint", 2};  // 2 added departed grains
 
 /// How the parts of the state lie in columns. The same walk fills columns from the state, and the
 /// state from columns: `Columns` offers number, vector, quaternion, id and flag.
@@ -159,6 +159,7 @@ class Extractor {
     value = Id{take<std::uint32_t, 1>(name)[0]};
   }
   void integer(const char* name, std::uint32_t& value) { value = take<std::uint32_t, 1>(name)[0]; }
+  void integer(const char* name, std::uint64_t& value) { value = take<std::uint64_t, 1>(name)[0]; }
   void flag(const char* name, bool& value) { value = take<std::uint8_t, 1>(name)[0] != 0; }
 
  private:
@@ -231,6 +232,12 @@ std::vector<CheckpointColumn> to_columns(const SimulationState& state) {
   append_rows("/grain/", state.grains.size(), columns, [&](Appender& to, std::size_t row) {
     walk_grain(to, row_or_blank(state.grains, row, GrainState{}));
   });
+  const DepartedGrain no_grain;
+  append_rows("/departed/", state.departed.size(), columns, [&](Appender& to, std::size_t row) {
+    const DepartedGrain& gone = row_or_blank(state.departed, row, no_grain);
+    to.integer("step", gone.step);
+    walk_grain(to, gone.grain);
+  });
   const PairSprings no_pair;
   append_rows("/pair/", state.pair_springs.size(), columns, [&](Appender& to, std::size_t row) {
     const PairSprings& pair = row_or_blank(state.pair_springs, row, no_pair);
@@ -296,6 +303,18 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
     walk_grain(grains, state.grains[row]);
     if (state.grains[row].shape.get() >= checkpoint.shape_digests.size()) {
       refuse(file, "a grain has a shape that is not in the library");
+    }
+  }
+  if (file.version() >= 2) {
+    state.departed.resize(rows_of(file, "/departed/step"));
+    Extractor departed{"/departed/", state.departed.size(), file};
+    for (std::size_t row = 0; row < state.departed.size(); ++row) {
+      departed.begin_row(row);
+      departed.integer("step", state.departed[row].step);
+      walk_grain(departed, state.departed[row].grain);
+      if (state.departed[row].grain.shape.get() >= checkpoint.shape_digests.size()) {
+        refuse(file, "a departed grain has a shape that is not in the library");
+      }
     }
   }
   const std::uint64_t pairs = rows_of(file, "/pair/id_a");

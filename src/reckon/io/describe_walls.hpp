@@ -106,4 +106,18 @@ void describe(Visitor& v, WallConfig& wall, const SceneConfig& scene) {
                    wall.motion, [&](WallMotion& motion) { describe(v, motion); });
 }
 
+template <class Visitor>
+void describe(Visitor& v, OutflowConfig& outflow) {
+  v.one_of(Presence::exactly_one, {"plane", "box"}, outflow.geometry.index(),
+           [&](std::size_t which) {
+             if (which == 0) {
+               v.table({.name = "plane", .meaning = "Grains leave that are behind this plane."},
+                       [&] { describe(v, hold<PlaneConfig>(outflow.geometry)); });
+             } else {
+               v.table({.name = "box", .meaning = "Grains leave that are outside this box."},
+                       [&] { describe(v, hold<BoxConfig>(outflow.geometry)); });
+             }
+           });
+}
+
 }  // namespace reckon

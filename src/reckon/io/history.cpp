@@ -80,9 +80,12 @@ std::vector<HistoryColumn> history_columns(std::span<const Wall> walls) {
       {"damping_J", "energy lost to global damping since the start"},
       {"body_work_J", "work of body forces other than gravity since the start"},
       {"wall_work_J", "work of moving walls and of grains with prescribed motion since the start"},
+      {"departed_J", "energy that grains took along which left through an outflow"},
       {"balance_error_J",
        "stored plus lost energy minus work done, less what it was at the start: the error of time "
        "stepping"},
+      {"grains", "grains in the simulation"},
+      {"departed", "grains that left through an outflow since the start"},
       {"contacts", "touching pairs of grains"},
       {"wall_contacts", "touching pairs of grain and wall"},
       {"touching_nodes", "nodes in contact"},
@@ -109,7 +112,7 @@ std::string history_reference_markdown() {
       "names the columns; each name ends in its unit. Numbers are written so that they read back "
       "as the same bits. Energies add up as\n\n"
       "    translation + rotation + gravity + elastic + friction + dashpot + damping\n"
-      "      - body_work - wall_work = constant + balance_error\n\n"
+      "      + departed - body_work - wall_work = constant + balance_error\n\n"
       "This page is made by `reckon reference history`.\n\n"
       "| column | meaning |\n|---|---|\n";
   const Wall example{.name = "WALL", .surface = PlaneSurface{}, .law = LinearLaw{}};
@@ -121,12 +124,12 @@ std::string history_reference_markdown() {
 
 std::string history_row(const Measurement& m, double energy_at_start) {
   const EnergyBudget& e = m.energy;
-  std::string row =
-      fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", m.step,
-                  m.time, e.translation, e.rotation, e.gravity, e.elastic, e.friction, e.dashpot,
-                  e.damping, e.body_work, e.wall_work, e.total() - energy_at_start, m.contacts,
-                  m.wall_contacts, m.touching_nodes, m.coordination, m.unbalanced_ratio,
-                  m.deepest_overlap, m.largest_speed, m.momentum.x, m.momentum.y, m.momentum.z);
+  std::string row = fmt::format(
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", m.step, m.time,
+      e.translation, e.rotation, e.gravity, e.elastic, e.friction, e.dashpot, e.damping,
+      e.body_work, e.wall_work, e.departed, e.total() - energy_at_start, m.grains, m.departed,
+      m.contacts, m.wall_contacts, m.touching_nodes, m.coordination, m.unbalanced_ratio,
+      m.deepest_overlap, m.largest_speed, m.momentum.x, m.momentum.y, m.momentum.z);
   for (const Vec3& force : m.wall_force) {
     row += fmt::format(",{},{},{}", force.x, force.y, force.z);
   }

@@ -115,10 +115,10 @@ void require_same_run(const Checkpoint& then, const Checkpoint& now, const std::
     refuse(place, "the accelerations are not those of the run to be resumed",
            "the content of body.acceleration_file has changed");
   }
-  if (then.state.grains.size() != now.state.grains.size()) {
-    refuse(
-        place, "the number of grains is not that of the run to be resumed",
-        fmt::format("it was {} and now is {}", then.state.grains.size(), now.state.grains.size()));
+  const std::size_t grains = then.state.grains.size() + then.state.departed.size();
+  if (grains != now.state.grains.size()) {
+    refuse(place, "the number of grains is not that of the run to be resumed",
+           fmt::format("it was {} and now is {}", grains, now.state.grains.size()));
   }
 }
 

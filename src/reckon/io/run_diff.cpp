@@ -49,6 +49,9 @@ std::string component_name(std::uint64_t width, std::uint64_t component) {
 /// What a row of a column stands for.
 std::string row_name(const std::string& column, std::uint64_t row, const SimulationState& state) {
   if (column.starts_with("/grain/")) return fmt::format("grain {}", state.grains[row].id.get());
+  if (column.starts_with("/departed/")) {
+    return fmt::format("departed grain {}", state.departed[row].grain.id.get());
+  }
   if (column.starts_with("/pair/") && row < state.pair_springs.size()) {
     const PairSprings& pair = state.pair_springs[row];
     return fmt::format("pair of grains {} and {}", pair.id_a.get(), pair.id_b.get());

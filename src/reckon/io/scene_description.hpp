@@ -247,6 +247,11 @@ void describe(Visitor& v, SceneConfig& scene) {
            scene.grains, [&](GrainsConfig& grains) { describe(v, grains); });
   v.tables({.name = "wall", .standard = "no walls", .meaning = "A wall around the grains."},
            scene.walls, [&](WallConfig& wall) { describe(v, wall, scene); });
+  v.tables({.name = "outflow",
+            .standard = "grains stay",
+            .meaning = "Grains whose centre gets beyond it are taken out of the simulation; "
+                       "history.csv counts them. Without one no grain is ever removed."},
+           scene.outflows, [&](OutflowConfig& outflow) { describe(v, outflow); });
   v.table({.name = "time", .meaning = "How long to run."}, [&] { describe(v, scene.time); });
   v.table({.name = "neighbor", .meaning = "How neighbours are found."},
           [&] { describe(v, scene.neighbor); });

@@ -37,6 +37,7 @@ class Loader {
     scene.shapes = std::move(shapes_);
     scene.read_shape = [catalog = catalog_](ShapeId shape) { return catalog->read(shape); };
     load_accelerations(scene);
+    check_outflows(scene);
     if (reading_.faults.empty() && scene.grains.empty()) {
       fault("grains", "the scene has no grains", "Place at least one.");
     }
@@ -63,6 +64,20 @@ class Loader {
             fmt::format("needs {:.3g} steps of {:.3g} s, more than any machine can make",
                         *time.duration / step, step),
             {});
+    }
+  }
+
+  void check_outflows(const LoadedScene& scene) {
+    for (const PlaneSurface& plane : outflow_planes(scene.config)) {
+      const auto out =
+          std::find_if(scene.grains.begin(), scene.grains.end(),
+                       [&](const GrainState& grain) { return plane.distance(grain.position) < 0; });
+      if (out == scene.grains.end()) continue;
+      return fault(
+          "outflow",
+          fmt::format("grain {} is beyond it from the start, at ({:.6g}, {:.6g}, {:.6g}) m",
+                      out->id.get(), out->position.x, out->position.y, out->position.z),
+          "Place grains where they may be; a plane's normal points to their side.");
     }
   }
 

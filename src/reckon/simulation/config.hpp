@@ -79,6 +79,11 @@ struct WallConfig {
   std::optional<WallMotion> motion;
 };
 
+/// Where grains leave the simulation: behind a plane, or outside a box.
+struct OutflowConfig {
+  std::variant<PlaneConfig, BoxConfig> geometry;
+};
+
 /// Grains drawn from a library and placed without overlap of bounding spheres, in random
 /// orientations, on a jittered grid that fills the region from below.
 struct FillPlacement {
@@ -142,6 +147,7 @@ struct SceneConfig {
   ContactConfig contact;
   BodyForceConfig body;
   std::vector<WallConfig> walls;
+  std::vector<OutflowConfig> outflows;
   std::vector<GrainsConfig> grains;
   TimeConfig time;
   NeighborConfig neighbor;

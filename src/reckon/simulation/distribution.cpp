@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "reckon/core/error.hpp"
+#include "reckon/core/exact_sum.hpp"
 #include "reckon/domain/grid_decomposition.hpp"
 #include "reckon/domain/packing.hpp"
 #include "reckon/neighbor/block_bins.hpp"
@@ -32,6 +34,39 @@ void pack_springs(Bytes& bytes, const WallSprings& entry) {
   pack<NodeSpring>(bytes, entry.springs);
 }
 
+/// Sums over all grains of all ranks that migration must not change, to the last bit. Per unit of
+/// density.
+struct Stock {
+  double mass{0};
+  Vec3 momentum;
+  friend bool operator==(const Stock&, const Stock&) = default;
+};
+
+Stock take_stock(const Communicator& ranks, const Grains& grains,
+                 std::span<const ShapeView> shapes) {
+  std::array<ExactSum, 4> sums;
+  for (std::size_t slot = 0; slot < grains.size(); ++slot) {
+    const double mass = shapes[grains.shape[slot].get()].mass.volume;
+    const Vec3 momentum = mass * grains.velocity[slot];
+    sums[0].add(mass);
+    sums[1].add(momentum.x);
+    sums[2].add(momentum.y);
+    sums[3].add(momentum.z);
+  }
+  for (ExactSum& sum : sums) {
+    sum.carry();
+    ranks.sum(sum.digits());
+  }
+  return {sums[0].value(), {sums[1].value(), sums[2].value(), sums[3].value()}};
+}
+
+void require(bool kept, const std::string& reason) {
+  if (kept) return;
+  throw Error{{.problem = "grains were lost or changed on their way between ranks",
+               .reason = reason,
+               .fix = "This is a fault of the program: please report it with the scene."}};
+}
+
 Grains without_leaving(const Grains& grains, std::span<const int> owners, int rank) {
   Grains staying;
   for (std::size_t slot = 0; slot < grains.size(); ++slot) {
@@ -43,11 +78,11 @@ Grains without_leaving(const Grains& grains, std::span<const int> owners, int ra
 }  // namespace
 
 Distribution::Distribution(const Communicator& ranks, DecompositionKind kind,
-                           std::size_t grain_count)
+                           std::size_t grain_count, std::size_t id_count)
     : ranks_{ranks},
       kind_{kind},
       grain_count_{grain_count},
-      decomposition_{make_decomposition(kind, ranks, grain_count)} {}
+      decomposition_{make_decomposition(kind, ranks, id_count)} {}
 
 /// Message to one rank: its new grains; then their pair springs; then their wall springs.
 std::vector<Bytes> Distribution::pack_leaving(const Grains& grains, std::span<const int> owners,
@@ -89,8 +124,8 @@ std::vector<Bytes> Distribution::pack_leaving(const Grains& grains, std::span<co
 }
 
 void Distribution::redistribute(Grains& grains, GrainContacts& grain_contacts,
-                                WallContacts& wall_contacts, std::span<const double> costs,
-                                double reach) {
+                                WallContacts& wall_contacts, std::span<const ShapeView> shapes,
+                                std::span<const double> costs, double reach) {
   decomposition_->update(grains.position, costs, reach);
   std::vector<int> owners(grains.size());
   bool some_leave = false;
@@ -100,6 +135,7 @@ void Distribution::redistribute(Grains& grains, GrainContacts& grain_contacts,
   }
   if (ranks_.any(some_leave)) {
     ++counters_.migrations;
+    const Stock before = take_stock(ranks_, grains, shapes);
     const std::vector<Bytes> incoming =
         ranks_.all_to_all(pack_leaving(grains, owners, grain_contacts, wall_contacts));
     grains = without_leaving(grains, owners, ranks_.rank());
@@ -122,14 +158,12 @@ void Distribution::redistribute(Grains& grains, GrainContacts& grain_contacts,
       }
       wall_contacts.adopt(walls);
     }
+    require(take_stock(ranks_, grains, shapes) == before, "mass or momentum was not kept");
   }
   auto count = static_cast<std::int64_t>(grains.size());
   ranks_.sum({&count, 1});
-  if (count != static_cast<std::int64_t>(grain_count_)) {
-    throw Error{{.problem = "grains were lost or doubled between ranks",
-                 .reason = fmt::format("{} of {} are left", count, grain_count_),
-                 .fix = "This is a fault of the program: please report it with the scene."}};
-  }
+  require(count == static_cast<std::int64_t>(grain_count_),
+          fmt::format("{} of {} grains are left", count, grain_count_));
 }
 
 void Distribution::list_ghosts(const Grains& grains) {

@@ -27,17 +27,20 @@ struct CommunicationCounters {
 /// anew, and keeps ghosts up to date in between.
 class Distribution {
  public:
-  /// `grain_count` on all ranks together.
-  Distribution(const Communicator& ranks, DecompositionKind kind, std::size_t grain_count);
+  /// `grain_count` on all ranks together, `id_count` above all ids.
+  Distribution(const Communicator& ranks, DecompositionKind kind, std::size_t grain_count,
+               std::size_t id_count);
 
   [[nodiscard]] const Communicator& ranks() const { return ranks_; }
 
   /// Collective. Across-block migration: every grain goes to the rank that owns its place, with the
   /// springs of all its contacts; geometry never travels. `costs` are per owned grain; `reach` is
   /// the largest distance of two centres that may touch before the next call [m]. Throws Error on
-  /// all ranks when a grain was lost.
+  /// all ranks when the number of grains, their mass or their momentum is not what it was.
   void redistribute(Grains& grains, GrainContacts& grain_contacts, WallContacts& wall_contacts,
-                    std::span<const double> costs, double reach);
+                    std::span<const ShapeView> shapes, std::span<const double> costs, double reach);
+  /// So many grains have left for good, on all ranks together.
+  void expect_fewer(std::size_t count) { grain_count_ -= count; }
 
   /// Collective. Chooses the ghosts anew from where the owned grains are now.
   void list_ghosts(const Grains& grains);

@@ -69,7 +69,8 @@ Vec3 foot_on_wall(const Wall& wall, const WallPose& pose, const Vec3& center) {
 
 }  // namespace
 
-std::vector<GrainState> Simulation::grain_states() const {
+std::vector<GrainState> Simulation::grain_states() {
+  bring_up_to_date();
   std::vector<GrainState> own;
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) own.push_back(grains_.state(slot));
   std::vector<GrainState> all = gather(distribution_.ranks(), own);
@@ -78,7 +79,10 @@ std::vector<GrainState> Simulation::grain_states() const {
   return all;
 }
 
-SimulationState Simulation::state() const {
+SimulationState Simulation::state() {
+  SimulationState state;
+  state.step = step_;
+  state.grains = grain_states();
   const Communicator& ranks = distribution_.ranks();
   // A pair that two ranks share is told by the owner of its first grain.
   std::vector<PairSprings> own_springs;
@@ -89,9 +93,6 @@ SimulationState Simulation::state() const {
       own_springs.push_back(std::move(pair));
     }
   }
-  SimulationState state;
-  state.step = step_;
-  state.grains = grain_states();
   state.pair_springs = gather_springs<PairSprings, PairKey>(
       ranks, own_springs,
       [](const PairSprings& p) {
@@ -108,6 +109,9 @@ SimulationState Simulation::state() const {
       [](const WallKey& key) {
         return WallSprings{key.grain, key.wall, {}};
       });
+  state.departed = gather(ranks, departed_);
+  std::sort(state.departed.begin(), state.departed.end(),
+            [](const DepartedGrain& a, const DepartedGrain& b) { return a.grain.id < b.grain.id; });
   std::sort(state.pair_springs.begin(), state.pair_springs.end(),
             [](const PairSprings& p, const PairSprings& q) {
               return p.id_a != q.id_a ? p.id_a < q.id_a : p.id_b < q.id_b;

@@ -23,19 +23,20 @@ struct ExactVec3 {
 /// What is summed over all grains, pairs and walls.
 struct Sums {
   ExactSum translation, rotation, gravity, elastic;
-  ExactSum friction, dashpot, damping, body_work, wall_work;
+  ExactSum friction, dashpot, damping, body_work, wall_work, departed_energy;
   ExactSum net_force, contact_force;
   ExactVec3 momentum;
   std::vector<ExactVec3> on_walls;
-  std::int64_t grains{0}, contacts{0}, wall_contacts{0}, touching_nodes{0};
+  std::int64_t grains{0}, departed{0}, contacts{0}, wall_contacts{0}, touching_nodes{0};
 
   /// Adds up what all ranks hold, digit by digit.
   void reduce(const Communicator& ranks) {
-    std::vector<ExactSum*> exact{&translation,   &rotation,   &gravity,    &elastic,   &friction,
-                                 &dashpot,       &damping,    &body_work,  &wall_work, &net_force,
-                                 &contact_force, &momentum.x, &momentum.y, &momentum.z};
+    std::vector<ExactSum*> exact{&translation, &rotation,   &gravity,        &elastic,
+                                 &friction,    &dashpot,    &damping,        &body_work,
+                                 &wall_work,   &net_force,  &contact_force,  &momentum.x,
+                                 &momentum.y,  &momentum.z, &departed_energy};
     for (ExactVec3& wall : on_walls) exact.insert(exact.end(), {&wall.x, &wall.y, &wall.z});
-    std::vector<std::int64_t> digits{grains, contacts, wall_contacts, touching_nodes};
+    std::vector<std::int64_t> digits{grains, contacts, wall_contacts, touching_nodes, departed};
     const std::size_t counts = digits.size();
     for (ExactSum* sum : exact) {
       sum->carry();
@@ -46,6 +47,7 @@ struct Sums {
     contacts = digits[1];
     wall_contacts = digits[2];
     touching_nodes = digits[3];
+    departed = digits[4];
     auto next = digits.begin() + static_cast<std::ptrdiff_t>(counts);
     for (ExactSum* sum : exact) {
       std::copy_n(next, ExactSum::digit_count, sum->digits().begin());
@@ -63,9 +65,10 @@ void add_ledger(Sums& sums, const EnergyLedger& ledger) {
 }
 
 EnergyBudget budget(const Sums& sums) {
-  return {sums.translation.value(), sums.rotation.value(),  sums.gravity.value(),
-          sums.elastic.value(),     sums.friction.value(),  sums.dashpot.value(),
-          sums.damping.value(),     sums.body_work.value(), sums.wall_work.value()};
+  return {sums.translation.value(),    sums.rotation.value(),  sums.gravity.value(),
+          sums.elastic.value(),        sums.friction.value(),  sums.dashpot.value(),
+          sums.damping.value(),        sums.body_work.value(), sums.wall_work.value(),
+          sums.departed_energy.value()};
 }
 
 }  // namespace
@@ -121,12 +124,24 @@ Measurement Simulation::measure() {
     sums.on_walls[wall_contacts_.candidates()[c].wall.get()].add(-wall.force);
     result.deepest_overlap = std::max(result.deepest_overlap, wall.deepest);
   }
+  for (const DepartedGrain& gone : departed_) {
+    const MassProperties& form = shapes_[gone.grain.shape.get()].mass;
+    const double mass = setup_.density * form.volume;
+    const Vec3& spin = gone.grain.angular_velocity_body;
+    sums.departed_energy.add(0.5 * mass * squared_norm(gone.grain.velocity) +
+                             0.5 * setup_.density * dot(hadamard(form.inertia, spin), spin) -
+                             mass * dot(setup_.body_force.gravity, gone.grain.position));
+    add_ledger(sums, gone.grain.ledger);
+  }
   sums.grains = static_cast<std::int64_t>(grains_.size());
+  sums.departed = static_cast<std::int64_t>(departed_.size());
   const Communicator& ranks = distribution_.ranks();
   sums.reduce(ranks);
   result.deepest_overlap = ranks.max(result.deepest_overlap);
   result.largest_speed = ranks.max(result.largest_speed);
 
+  result.grains = static_cast<std::uint64_t>(sums.grains);
+  result.departed = static_cast<std::uint64_t>(sums.departed);
   result.contacts = static_cast<std::uint64_t>(sums.contacts);
   result.wall_contacts = static_cast<std::uint64_t>(sums.wall_contacts);
   result.touching_nodes = static_cast<std::uint64_t>(sums.touching_nodes);

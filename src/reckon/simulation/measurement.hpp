@@ -20,11 +20,12 @@ struct EnergyBudget {
   double damping{0};      ///< lost to global damping [J]
   double body_work{0};    ///< come in through body forces other than gravity [J]
   double wall_work{0};    ///< come in through moving walls and prescribed grains [J]
+  double departed{0};     ///< carried away by grains that left [J]
 
   /// Stored plus lost minus come in: constant, up to the error of the time stepping [J].
   [[nodiscard]] double total() const {
-    return translation + rotation + gravity + elastic + friction + dashpot + damping - body_work -
-           wall_work;
+    return translation + rotation + gravity + elastic + friction + dashpot + damping + departed -
+           body_work - wall_work;
   }
   friend bool operator==(const EnergyBudget&, const EnergyBudget&) = default;
 };
@@ -35,6 +36,8 @@ struct Measurement {
   std::uint64_t step{0};
   double time{0};  ///< [s]
   EnergyBudget energy;
+  std::uint64_t grains{0};
+  std::uint64_t departed{0};       ///< grains that left through an outflow since the start
   std::uint64_t contacts{0};       ///< touching pairs of grains
   std::uint64_t wall_contacts{0};  ///< touching pairs of grain and wall
   std::uint64_t touching_nodes{0};

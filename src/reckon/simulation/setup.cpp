@@ -22,6 +22,16 @@ AnyContactLaw make_law(const ContactConfig& contact, double normal_stiffness,
                  dashpot ? contact.viscosity : 0};
 }
 
+std::vector<std::pair<std::string, PlaneSurface>> box_sides(const BoxConfig& box) {
+  std::vector<std::pair<std::string, PlaneSurface>> sides{{".x-", {box.low, {1, 0, 0}}},
+                                                          {".x+", {box.high, {-1, 0, 0}}},
+                                                          {".y-", {box.low, {0, 1, 0}}},
+                                                          {".y+", {box.high, {0, -1, 0}}},
+                                                          {".z-", {box.low, {0, 0, 1}}}};
+  if (!box.open_top) sides.push_back({".z+", {box.high, {0, 0, -1}}});
+  return sides;
+}
+
 /// A wall's surfaces and what to add to its name: a box has several.
 std::vector<std::pair<std::string, WallSurface>> surfaces(const WallConfig& wall) {
   if (const auto* plane = std::get_if<PlaneConfig>(&wall.geometry)) {
@@ -30,15 +40,8 @@ std::vector<std::pair<std::string, WallSurface>> surfaces(const WallConfig& wall
   if (const auto* cylinder = std::get_if<CylinderConfig>(&wall.geometry)) {
     return {{"", CylinderSurface{cylinder->point, normalized(cylinder->axis), cylinder->radius}}};
   }
-  const auto& box = std::get<BoxConfig>(wall.geometry);
-  std::vector<std::pair<std::string, WallSurface>> sides{
-      {".x-", PlaneSurface{box.low, {1, 0, 0}}},
-      {".x+", PlaneSurface{box.high, {-1, 0, 0}}},
-      {".y-", PlaneSurface{box.low, {0, 1, 0}}},
-      {".y+", PlaneSurface{box.high, {0, -1, 0}}},
-      {".z-", PlaneSurface{box.low, {0, 0, 1}}}};
-  if (!box.open_top) sides.emplace_back(".z+", PlaneSurface{box.high, Vec3{0, 0, -1}});
-  return sides;
+  const auto sides = box_sides(std::get<BoxConfig>(wall.geometry));
+  return {sides.begin(), sides.end()};
 }
 
 std::vector<Wall> make_walls(const SceneConfig& scene) {
@@ -58,6 +61,20 @@ std::vector<Wall> make_walls(const SceneConfig& scene) {
 
 }  // namespace
 
+std::vector<PlaneSurface> outflow_planes(const SceneConfig& scene) {
+  std::vector<PlaneSurface> planes;
+  for (const OutflowConfig& outflow : scene.outflows) {
+    if (const auto* plane = std::get_if<PlaneConfig>(&outflow.geometry)) {
+      planes.push_back({plane->point, normalized(plane->normal)});
+      continue;
+    }
+    for (const auto& [suffix, side] : box_sides(std::get<BoxConfig>(outflow.geometry))) {
+      planes.push_back(side);
+    }
+  }
+  return planes;
+}
+
 PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
   const SceneConfig& config = scene.config;
   PreparedScene prepared;
@@ -76,6 +93,7 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
                            config.contact.node_cap.value_or(0)),
                   config.material.friction, config.contact.master},
       .walls = make_walls(config),
+      .outflows = outflow_planes(config),
       .body_force = {config.body.gravity, config.body.random_acceleration,
                      config.body.random_interval, config.seed, scene.own_accelerations},
       .damping = config.body.damping,

@@ -30,6 +30,9 @@ struct PreparedScene {
   std::uint64_t steps{0};  ///< how many to run from the start
 };
 
+/// All planes of the scene's outflows; a grain leaves when its centre is behind one.
+[[nodiscard]] std::vector<PlaneSurface> outflow_planes(const SceneConfig& scene);
+
 /// Turns config into walls, laws and a time step. `scene.config` is already validated. Collective:
 /// all ranks pass the same scene, but only the root's grains count.
 [[nodiscard]] PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks = {});

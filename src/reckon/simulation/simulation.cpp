@@ -35,7 +35,8 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
                        const Communicator& ranks)
     : setup_{std::move(setup)},
       shapes_{setup_.shapes.views()},
-      distribution_{ranks, setup_.decomposition, total_count(ranks, state.grains.size())},
+      distribution_{ranks, setup_.decomposition, total_count(ranks, state.grains.size()),
+                    total_count(ranks, state.grains.size() + state.departed.size())},
       grain_contacts_{setup_.contact, setup_.engine},
       wall_contacts_{setup_.walls, setup_.engine},
       step_{root_step(ranks, state.step)} {
@@ -45,6 +46,7 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
   for (const GrainState& grain : state.grains) grains_.push_back(grain);
   grain_contacts_.adopt(state.pair_springs);
   wall_contacts_.adopt(state.wall_springs);
+  departed_ = state.departed;
 }
 
 void Simulation::step() {
@@ -67,7 +69,8 @@ void Simulation::bring_up_to_date() {
   Stopwatch watch;
   wall_contacts_.move_walls(step_, setup_.time_step);
   if (lists_are_stale_) {
-    distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, grain_costs(),
+    let_grains_out();
+    distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_, grain_costs(),
                                2 * largest_radius_ + setup_.skin);
     phase_times_.migration += watch.lap();
     distribution_.list_ghosts(grains_);
@@ -88,6 +91,24 @@ void Simulation::bring_up_to_date() {
   phase_times_.border += watch.lap();
   add_ghost_frames();
   phase_times_.frames += watch.lap();
+}
+
+/// Their springs go with them when lists are made anew.
+void Simulation::let_grains_out() {
+  if (setup_.outflows.empty()) return;
+  const auto before = static_cast<std::int64_t>(departed_.size());
+  Grains staying;
+  for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
+    if (is_out(slot)) {
+      departed_.push_back({step_, grains_.state(slot)});
+    } else {
+      staying.push_back(grains_.state(slot));
+    }
+  }
+  std::int64_t left = static_cast<std::int64_t>(departed_.size()) - before;
+  if (left > 0) grains_ = std::move(staying);
+  distribution_.ranks().sum({&left, 1});
+  distribution_.expect_fewer(static_cast<std::size_t>(left));
 }
 
 /// Grids and nodes of the shapes of all grains that this rank sees.
@@ -181,7 +202,8 @@ void Simulation::agree_on_what_comes() {
   constexpr double failed = 2;
   double news = farthest_motion_since_listing() < 0.5 * setup_.skin ? fine : stale;
   news = std::max(news, parallel_max(grains_.size(), fine, [&](std::size_t slot) {
-                    return motion_is_finite(slot) ? fine : failed;
+                    if (!motion_is_finite(slot)) return failed;
+                    return is_out(slot) ? stale : fine;
                   }));
   news = distribution_.ranks().max(news);
   lists_are_stale_ = news >= stale;
@@ -236,6 +258,12 @@ void Simulation::advance_grains() {
 void Simulation::commit_springs() {
   grain_contacts_.commit();
   wall_contacts_.commit();
+}
+
+bool Simulation::is_out(std::size_t slot) const {
+  return std::any_of(
+      setup_.outflows.begin(), setup_.outflows.end(),
+      [&](const PlaneSurface& plane) { return plane.distance(grains_.position[slot]) < 0; });
 }
 
 bool Simulation::motion_is_finite(std::size_t slot) const {

@@ -26,6 +26,7 @@ struct SimulationSetup {
   double density{0};  ///< [kg/m^3]
   ContactSettings contact;
   std::vector<Wall> walls;
+  std::vector<PlaneSurface> outflows;  ///< a grain whose centre is behind one leaves
   BodyForce body_force;
   double damping{0};    ///< global damping xi [1/s]
   double time_step{0};  ///< [s]
@@ -34,12 +35,19 @@ struct SimulationSetup {
   DecompositionKind decomposition{DecompositionKind::balanced};  ///< likewise
 };
 
+/// A grain that an outflow took out, as it was then.
+struct DepartedGrain {
+  std::uint64_t step{0};
+  GrainState grain;
+};
+
 /// What changes: all that a checkpoint must hold to go on to the same bits.
 struct SimulationState {
   std::uint64_t step{0};
   std::vector<GrainState> grains;         ///< sorted by id
   std::vector<PairSprings> pair_springs;  ///< sorted by ids
   std::vector<WallSprings> wall_springs;  ///< sorted by grain, then wall
+  std::vector<DepartedGrain> departed;    ///< sorted by id
 };
 
 /// One pair of touching grains, or a grain and a wall, as output shows it.
@@ -71,9 +79,9 @@ class Simulation {
   /// root, empty elsewhere. Changes nothing.
   [[nodiscard]] std::vector<ContactRecord> contacts();
   /// All grains, sorted by id. Collective; whole on the root, empty elsewhere.
-  [[nodiscard]] std::vector<GrainState> grain_states() const;
+  [[nodiscard]] std::vector<GrainState> grain_states();
   /// Everything needed to go on. Collective; whole on the root, empty elsewhere.
-  [[nodiscard]] SimulationState state() const;
+  [[nodiscard]] SimulationState state();
   /// What every rank did since the simulation began, by rank. Collective; whole on the root, empty
   /// elsewhere.
   [[nodiscard]] std::vector<RankPerformance> performance() const;
@@ -95,6 +103,7 @@ class Simulation {
 
  private:
   void bring_up_to_date();
+  void let_grains_out();
   void require_shapes();
   void update_inertias();
   void add_ghost_frames();
@@ -111,6 +120,7 @@ class Simulation {
   void agree_on_what_comes();
 
   [[nodiscard]] double farthest_motion_since_listing() const;
+  [[nodiscard]] bool is_out(std::size_t slot) const;
   [[nodiscard]] bool motion_is_finite(std::size_t slot) const;
   [[noreturn]] void fail_on_motion() const;
   [[nodiscard]] Vec3 push_besides_gravity(std::size_t slot) const;
@@ -126,6 +136,7 @@ class Simulation {
   std::vector<Load> contact_loads_;
   GrainContacts grain_contacts_;
   WallContacts wall_contacts_;
+  std::vector<DepartedGrain> departed_;  // on this rank
   std::uint64_t step_{0};
 
   std::vector<Vec3> listed_positions_;  // where grains were when the lists were made

@@ -239,6 +239,26 @@ TEST(Simulation, PrescribedGrainKeepsItsCourse) {
               1e-2);
 }
 
+TEST_F(ShakenBox, GrainsBeyondAnOutflowLeaveWithTheirEnergy) {
+  SimulationSetup setup = shaken_box(shapes_);
+  setup.walls.pop_back();  // no floor
+  setup.outflows = {{{0, 0, -6}, {0, 0, 1}}};
+  Simulation simulation{setup, start_};
+  const double energy = simulation.measure().energy.total();
+  for (int n = 0; n < 3000; ++n) simulation.step();
+  const SimulationState state = simulation.state();
+  const Measurement measurement = simulation.measure();
+  EXPECT_GT(state.departed.size(), 10U);
+  EXPECT_EQ(state.departed.size() + state.grains.size(), 60U);
+  EXPECT_EQ(measurement.departed, state.departed.size());
+  for (const DepartedGrain& gone : state.departed) {
+    EXPECT_LT(gone.grain.position.z, -6);
+    EXPECT_GT(gone.grain.position.z, -6.1);  // at once, not when lists happen to be made anew
+  }
+  for (const GrainState& grain : state.grains) EXPECT_GE(grain.position.z, -6);
+  EXPECT_NEAR(measurement.energy.total(), energy, 2e-3 * std::abs(measurement.energy.departed));
+}
+
 TEST(Placement, BoundingSpheresDoNotMeet) {
   const ShapeLibrary shapes{testing::sphere(1.0, 50), testing::sphere(0.5, 50)};
   FillPlacement fill;
@@ -257,9 +277,9 @@ TEST(Placement, BoundingSpheresDoNotMeet) {
     }
   }
   fill.count = 100000;
-  EXPECT_THROW(static_cast<void>(
-                   fill_region(fill, testing::views_of(shapes), ShapeId{0}, GrainId{0}, 1)),
-               Error);
+  EXPECT_THROW(
+      static_cast<void>(fill_region(fill, testing::views_of(shapes), ShapeId{0}, GrainId{0}, 1)),
+      Error);
 }
 
 }  // namespace
