@@ -10,6 +10,7 @@
 
 #include "reckon/boundary/wall.hpp"
 #include "reckon/contact/contact_settings.hpp"
+#include "reckon/contact/simd_level.hpp"
 #include "reckon/math/vec3.hpp"
 
 namespace reckon {
@@ -119,6 +120,7 @@ struct TimeConfig {
 struct NeighborConfig {
   double skin{0.1};  ///< as a fraction of the smallest bounding radius, > 0
   ContactEngine engine{ContactEngine::near};  ///< changes speed, never results
+  SimdLevel simd{SimdLevel::automatic};       ///< changes speed, never results
 };
 
 struct OutputConfig {

@@ -80,6 +80,7 @@ PreparedScene prepare(const LoadedScene& scene) {
       .time_step = prepared.time_step.step,
       .skin = config.neighbor.skin * smallest_radius,
       .engine = config.neighbor.engine,
+      .simd = resolve(config.neighbor.simd),
   };
   prepared.initial.grains = scene.grains;
   prepared.steps = config.time.steps.value_or(static_cast<std::uint64_t>(

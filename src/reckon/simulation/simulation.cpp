@@ -35,7 +35,7 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
     : setup_{std::move(setup)},
       shapes_{setup_.shapes->begin(), setup_.shapes->end()},
       distribution_{ranks, setup_.decomposition, total_count(ranks, state.grains.size())},
-      grain_contacts_{setup_.contact, setup_.engine},
+      grain_contacts_{setup_.contact, setup_.engine, setup_.simd},
       wall_contacts_{setup_.walls, setup_.engine},
       step_{root_step(ranks, state.step)} {
   for (const ShapeView& shape : shapes_) {
