@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench_command.hpp"
 #include "check_command.hpp"
 #include "diff_command.hpp"
 #include "exit_codes.hpp"
@@ -103,6 +104,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   add_run_command(app);
   add_diff_command(app);
   add_surfaces_command(app);
+  add_bench_command(app);
   add_reference_command(app);
   app.footer(std::string{"`reckon COMMAND --help` has examples.\n\n"} + exit_code_footer);
   try {

@@ -211,6 +211,15 @@ void GrainContacts::commit() {
   springs_of_pair_.swap(new_springs_of_pair_);
 }
 
+std::size_t GrainContacts::bytes() const {
+  const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+  std::size_t sum = of(pairs_) + of(pairs_of_grain_.first) + of(pairs_of_grain_.entries) +
+                    of(springs_of_pair_) + of(new_springs_of_pair_) + of(forces_) + of(acts_) +
+                    of(wake_) + of(near_) + store_.bytes();
+  for (const NearPair& pair : near_) sum += pair.of_a.bytes() + pair.of_b.bytes();
+  return sum;
+}
+
 std::vector<PairSprings> GrainContacts::springs() const {
   std::vector<PairSprings> all;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {

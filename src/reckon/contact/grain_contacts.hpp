@@ -74,6 +74,9 @@ class GrainContacts {
   /// What the grains of the last evaluate() have travelled; stands still with the plain engine.
   [[nodiscard]] const MotionMeter& meter() const { return meter_; }
 
+  /// Memory held by lists, pairs and springs.
+  [[nodiscard]] std::size_t bytes() const;
+
   /// Springs of all touching pairs, sorted by (id_a, id_b).
   [[nodiscard]] std::vector<PairSprings> springs() const;
   /// Takes over springs from a checkpoint or another rank, of pairs that have none here. A rebuild

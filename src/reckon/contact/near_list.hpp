@@ -27,6 +27,8 @@ class NearList {
                       PointFilter filter, std::vector<Touch>& touches, ContactCounters& counters);
 
   void prefetch() const { list_.prefetch(); }
+  /// Memory held, besides the object.
+  [[nodiscard]] std::size_t bytes() const { return list_.bytes(); }
 
  private:
   struct Slave {
