@@ -47,6 +47,10 @@ struct Packing {
                               double pressure, double time_step, double skin,
                               const std::string& file);
 
+/// Puts `copies` of the packing along each axis side by side, in a box as many times as large,
+/// until there are `count` grains. The copies share their shapes.
+void repeat(Packing& packing, int copies, std::size_t count);
+
 /// Mean normal stress on the six walls of a box [Pa].
 [[nodiscard]] double wall_pressure(const Measurement& now, const Vec3& size);
 

@@ -12,7 +12,7 @@ packages_of() {
   case "$1" in
     build)  # what it takes to compile and run the program
       echo g++ cmake ninja-build ccache \
-        libfmt-dev libeigen3-dev libhdf5-dev libtomlplusplus-dev libcli11-dev \
+        libfmt-dev libeigen3-dev libhdf5-dev libtomlplusplus-dev libcli11-dev libhwy-dev \
         libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev ;;
     test)  # what ./check needs beyond that
       echo libgtest-dev clang clang-format clang-tidy libclang-rt-14-dev libomp-dev \

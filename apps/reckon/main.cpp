@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench_command.hpp"
 #include "check_command.hpp"
 #include "diff_command.hpp"
 #include "exit_codes.hpp"
@@ -116,6 +117,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
   add_run_command(app, ranks);
   add_diff_command(app);
   add_surfaces_command(app);
+  add_bench_command(app);
   add_reference_command(app);
   app.footer(std::string{"`reckon COMMAND --help` has examples.\n\n"} + exit_code_footer);
   try {

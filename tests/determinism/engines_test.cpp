@@ -186,6 +186,30 @@ TEST(Engines, AgreeWithEveryMasterRuleAndLaw) {
   }
 }
 
+/// Not only results: all levels round alike, so they list the same nodes at the same steps.
+TEST(Engines, AgreeOnEverySimdLevel) {
+  const std::vector<SimdLevel> levels = simd_levels_here();
+  RecordProperty("levels", static_cast<int>(levels.size()));
+  for (const Scene& scene : {dynamic_drop(), unequal_sizes(), fast_spin()}) {
+    SimulationSetup setup = scene.setup;
+    setup.simd = SimdLevel::scalar;
+    Simulation scalar{setup, scene.start};
+    std::vector<Simulation> others;
+    for (const SimdLevel level : levels) {
+      setup.simd = level;
+      others.emplace_back(setup, scene.start);
+    }
+    for (int n = 1; n <= 700; ++n) {
+      scalar.step();
+      for (Simulation& other : others) other.step();
+    }
+    for (const Simulation& other : others) {
+      expect_same_state(other.state(), scalar.state());
+      EXPECT_EQ(other.grain_contacts().counters(), scalar.grain_contacts().counters());
+    }
+  }
+}
+
 /// The near engine alone, with a restart in the middle and looks in between, on some threads.
 TEST(Engines, AgreeAcrossThreadsRestartsAndLooks) {
   const int before = thread_count();

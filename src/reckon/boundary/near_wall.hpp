@@ -22,6 +22,8 @@ class NearWall {
                       double odometer, std::vector<Touch>& touches, ContactCounters& counters);
 
   void prefetch() const { list_.prefetch(); }
+  /// Memory held, besides the object.
+  [[nodiscard]] std::size_t bytes() const { return list_.bytes(); }
 
  private:
   struct Grain {

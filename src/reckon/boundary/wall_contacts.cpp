@@ -154,6 +154,15 @@ void WallContacts::commit() {
   springs_of_candidate_.swap(new_springs_of_candidate_);
 }
 
+std::size_t WallContacts::bytes() const {
+  const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+  std::size_t sum = of(candidates_) + of(first_of_slot_) + of(springs_of_candidate_) +
+                    of(new_springs_of_candidate_) + of(forces_) + of(wake_) + of(near_) +
+                    store_.bytes();
+  for (const NearWall& list : near_) sum += list.bytes();
+  return sum;
+}
+
 std::vector<WallSprings> WallContacts::springs() const {
   std::vector<WallSprings> all;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {

@@ -64,6 +64,9 @@ class WallContacts {
   /// Of candidates instead of pairs.
   [[nodiscard]] const ContactCounters& counters() const { return counters_; }
 
+  /// Memory held by lists, candidates and springs.
+  [[nodiscard]] std::size_t bytes() const;
+
   /// Springs of all touching candidates, sorted by (grain, wall).
   [[nodiscard]] std::vector<WallSprings> springs() const;
   /// Takes over springs from a checkpoint or another rank; a rebuild must follow.

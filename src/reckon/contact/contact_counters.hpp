@@ -35,6 +35,20 @@ struct ContactCounters {
     searched_nodes += b.searched_nodes;
     return *this;
   }
+  /// What was counted since `b`.
+  [[nodiscard]] ContactCounters operator-(const ContactCounters& b) const {
+    return {evaluations - b.evaluations,
+            pairs - b.pairs,
+            awake - b.awake,
+            tested_nodes - b.tested_nodes,
+            cells_read - b.cells_read,
+            touching_pairs - b.touching_pairs,
+            touching_nodes - b.touching_nodes,
+            lists_checked - b.lists_checked,
+            lists_made - b.lists_made,
+            listed_nodes - b.listed_nodes,
+            searched_nodes - b.searched_nodes};
+  }
   friend bool operator==(const ContactCounters&, const ContactCounters&) = default;
 };
 

@@ -117,7 +117,8 @@ void GrainContacts::evaluate_listed(const Law& law, std::size_t p,
       return;
     }
     NearList& list = master_is_b ? near_[p].of_b : near_[p].of_a;
-    wake = std::min(wake, list.find_touches(master, slave, *odometer, touches, scratch.counters));
+    wake = std::min(
+        wake, list.find_touches(master, slave, *odometer, filter_, touches, scratch.counters));
   };
   new_springs_of_pair_[p] = store_.append([&](std::vector<NodeSpring>& arena) {
     forces_[p] = evaluate_pair(law, frames[pair.slot_a], frames[pair.slot_b], old_springs,
@@ -208,6 +209,15 @@ void GrainContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> led
 void GrainContacts::commit() {
   store_.commit();
   springs_of_pair_.swap(new_springs_of_pair_);
+}
+
+std::size_t GrainContacts::bytes() const {
+  const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+  std::size_t sum = of(pairs_) + of(pairs_of_grain_.first) + of(pairs_of_grain_.entries) +
+                    of(springs_of_pair_) + of(new_springs_of_pair_) + of(forces_) + of(acts_) +
+                    of(wake_) + of(near_) + store_.bytes();
+  for (const NearPair& pair : near_) sum += pair.of_a.bytes() + pair.of_b.bytes();
+  return sum;
 }
 
 std::vector<PairSprings> GrainContacts::springs() const {

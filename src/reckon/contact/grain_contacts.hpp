@@ -51,8 +51,9 @@ struct PairSprings {
 /// answer depends on them.
 class GrainContacts {
  public:
-  explicit GrainContacts(ContactSettings settings, ContactEngine engine = ContactEngine::near)
-      : settings_{std::move(settings)}, engine_{engine} {}
+  explicit GrainContacts(ContactSettings settings, ContactEngine engine = ContactEngine::near,
+                         SimdLevel simd = SimdLevel::automatic)
+      : settings_{std::move(settings)}, engine_{engine}, filter_{point_filter(simd)} {}
 
   /// Lists the pairs anew, sorted by ids; touching pairs keep their springs. `slot_count` grains.
   void rebuild(std::vector<Pair> pairs, std::size_t slot_count);
@@ -72,6 +73,9 @@ class GrainContacts {
   [[nodiscard]] const ContactCounters& counters() const { return counters_; }
   /// What the grains of the last evaluate() have travelled; stands still with the plain engine.
   [[nodiscard]] const MotionMeter& meter() const { return meter_; }
+
+  /// Memory held by lists, pairs and springs.
+  [[nodiscard]] std::size_t bytes() const;
 
   /// Springs of all touching pairs, sorted by (id_a, id_b).
   [[nodiscard]] std::vector<PairSprings> springs() const;
@@ -106,6 +110,7 @@ class GrainContacts {
 
   ContactSettings settings_;
   ContactEngine engine_;
+  PointFilter filter_;
   std::vector<Pair> pairs_;
   PairsOfGrain pairs_of_grain_;
   std::vector<SpringRange> springs_of_pair_;  // in store_, as of the last commit

@@ -68,6 +68,15 @@ class SpringStore {
     arena.insert(arena.end(), springs.begin(), springs.end());
     return {0, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(springs.size())};
   }
+  /// Memory held, besides the object.
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = 0;
+    for (const auto* arenas : {&read_, &write_}) {
+      for (const Arena& arena : *arenas) sum += arena.springs.capacity() * sizeof(NodeSpring);
+    }
+    return sum;
+  }
+
   /// What was written becomes what is read.
   void commit() { read_.swap(write_); }
 

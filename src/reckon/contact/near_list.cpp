@@ -3,6 +3,7 @@
 #include "reckon/contact/near_list.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,10 +19,32 @@ double rounding_margin(double both_radii, double odometer) {
   return 1e-12 * both_radii + 8 * std::numeric_limits<double>::epsilon() * odometer;
 }
 
+/// The bound of a cluster whose nodes have been looked at one by one.
+constexpr float opened = std::numeric_limits<float>::infinity();
+
+/// Clusters as a filter takes them.
+struct ClusterSpheres {
+  std::vector<double> x, y, z, radius;
+
+  void copy(std::span<const NodeCluster> clusters) {
+    for (auto* const values : {&x, &y, &z, &radius}) values->resize(clusters.size());
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+      x[c] = clusters[c].center_body.x;
+      y[c] = clusters[c].center_body.y;
+      z[c] = clusters[c].center_body.z;
+      radius[c] = clusters[c].radius;
+    }
+  }
+  [[nodiscard]] FilterPoints points() const {
+    return {x.data(), y.data(), z.data(), radius.data(), x.size()};
+  }
+};
+
 }  // namespace
 
 double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave, double odometer,
-                              std::vector<Touch>& touches, ContactCounters& counters) {
+                              PointFilter filter, std::vector<Touch>& touches,
+                              ContactCounters& counters) {
   const double both_radii = list_.exists()
                                 ? list_.partner().both_radii
                                 : master.shape->bounding_radius + slave.shape->bounding_radius;
@@ -34,7 +57,7 @@ double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave,
   if (!list_.complete_at(odometer)) {
     ++counters.lists_checked;
     if (!still_complete(at, master.shape->bounding_radius, odometer, margin)) {
-      make(*master.shape, *slave.shape, at, odometer, margin, counters);
+      make(*master.shape, *slave.shape, at, odometer, margin, filter, counters);
     }
   }
   const Slave& other = list_.partner();
@@ -79,50 +102,56 @@ bool NearList::still_complete(const Placement& at, double master_radius, double 
 }
 
 void NearList::make(const ShapeView& master, const ShapeView& slave, const Placement& at,
-                    double odometer, double margin, ContactCounters& counters) {
+                    double odometer, double margin, PointFilter filter, ContactCounters& counters) {
   struct Found {
     NodeIndex node;
     double clearance;
   };
   // Scratch of this thread. A cluster's bound: no node of it has less clearance.
   thread_local std::vector<Found> found;
-  thread_local std::vector<double> bounds;
+  thread_local ClusterSpheres clusters;
+  thread_local std::vector<float> bounds;
   found.clear();
-  bounds.clear();
+  clusters.copy(master.clusters);
+  bounds.resize(master.clusters.size());
   const double skin = list_skin(master);
-  const Clearance clearance{slave};
+  const FilterTarget target{slave, at, master.bounding_radius, skin};
+  const auto metres = [&](float bound) { return target.in_metres(bound) - margin; };
   double rest = wake_never;
   const auto open = [&](const NodeCluster& cluster) {
-    for (NodeIndex n = cluster.first; n < cluster.first + cluster.count; ++n) {
-      ++counters.searched_nodes;
-      const Vec3 point = at.turn * master.node(n) + at.shift;
-      double bound = clearance.of_sphere(point) - margin;
-      if (bound <= skin) bound = std::max(bound, clearance.of_grid(point) - margin);
-      if (bound <= skin) {
-        found.push_back({n, bound});
-      } else {
-        rest = std::min(rest, bound);
+    std::array<float, nodes_per_cluster> bound{};
+    for (NodeIndex first = cluster.first; first < cluster.first + cluster.count;
+         first += nodes_per_cluster) {
+      const std::size_t count = std::min(nodes_per_cluster, cluster.first + cluster.count - first);
+      filter(target,
+             {&master.node_x[first], &master.node_y[first], &master.node_z[first], nullptr, count},
+             bound.data());
+      counters.searched_nodes += count;
+      for (NodeIndex n = 0; n < count; ++n) {
+        const double clearance = metres(bound[n]);
+        if (clearance <= skin) {
+          found.push_back({first + n, clearance});
+        } else {
+          rest = std::min(rest, clearance);
+        }
       }
     }
   };
-  for (const NodeCluster& cluster : master.clusters) {
-    const Vec3 center = at.turn * cluster.center_body + at.shift;
-    double bound = clearance.of_sphere(center) - cluster.radius - margin;
-    if (bound <= skin) bound = std::max(bound, clearance.of_grid(center) - cluster.radius - margin);
-    if (bound <= skin) {
-      open(cluster);
-      bound = wake_never;
-    }
-    bounds.push_back(bound);
+  filter(target, clusters.points(), bounds.data());
+  for (std::size_t c = 0; c < bounds.size(); ++c) {
+    if (metres(bounds[c]) > skin) continue;
+    open(master.clusters[c]);
+    bounds[c] = opened;
   }
   // Nothing near: the pair will sleep, the longer the better the bound is known.
   while (found.empty()) {
     const auto nearest = std::min_element(bounds.begin(), bounds.end());
-    if (nearest == bounds.end() || *nearest >= rest) break;
-    *nearest = wake_never;
+    if (nearest == bounds.end() || metres(*nearest) >= rest) break;
+    *nearest = opened;
     open(master.clusters[static_cast<std::size_t>(nearest - bounds.begin())]);
   }
-  for (const double bound : bounds) rest = std::min(rest, bound);
+  if (!bounds.empty())
+    rest = std::min(rest, metres(*std::min_element(bounds.begin(), bounds.end())));
   ++counters.lists_made;
   counters.listed_nodes += found.size();
 

@@ -6,6 +6,7 @@
 
 #include "reckon/contact/contact_counters.hpp"
 #include "reckon/contact/placement.hpp"
+#include "reckon/contact/point_filter.hpp"
 #include "reckon/contact/touch.hpp"
 #include "reckon/contact/wake_list.hpp"
 
@@ -21,10 +22,13 @@ class NearList {
  public:
   /// Appends the touching nodes in node order: the same bits as the plain finder's. Returns the
   /// odometer reading before which no node can touch, or minus infinity if a node touches now.
+  /// Any `filter` will do.
   double find_touches(const GrainFrame& master, const GrainFrame& slave, double odometer,
-                      std::vector<Touch>& touches, ContactCounters& counters);
+                      PointFilter filter, std::vector<Touch>& touches, ContactCounters& counters);
 
   void prefetch() const { list_.prefetch(); }
+  /// Memory held, besides the object.
+  [[nodiscard]] std::size_t bytes() const { return list_.bytes(); }
 
  private:
   struct Slave {
@@ -47,7 +51,7 @@ class NearList {
   [[nodiscard]] bool still_complete(const Placement& at, double master_radius, double odometer,
                                     double margin);
   void make(const ShapeView& master, const ShapeView& slave, const Placement& at, double odometer,
-            double margin, ContactCounters& counters);
+            double margin, PointFilter filter, ContactCounters& counters);
 
   WakeList<Slave, Placement, Node> list_;
 };

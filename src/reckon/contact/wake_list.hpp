@@ -84,6 +84,11 @@ class WakeList {
     return head.touching > 0 ? wake_always : std::min(head.next_wake, head.complete_until);
   }
 
+  /// Memory held.
+  [[nodiscard]] std::size_t bytes() const {
+    return block_ ? sizeof(Head) + block_->capacity * sizeof(Node) : 0;
+  }
+
   /// Asks the memory for what the next look reads.
   void prefetch() const {
     constexpr std::size_t nodes_ahead = 2;

@@ -190,6 +190,13 @@ void describe(Visitor& v, NeighborConfig& neighbor) {
                        "partner and for how long they cannot touch; `plain` tests every node at "
                        "every step, many times slower. Both give the same results."},
            neighbor.engine, engines);
+  constexpr std::array levels{Choice{"auto", SimdLevel::automatic},
+                              Choice{"scalar", SimdLevel::scalar}, Choice{"avx2", SimdLevel::avx2},
+                              Choice{"avx512", SimdLevel::avx512}, Choice{"neon", SimdLevel::neon}};
+  v.choice({.name = "simd",
+            .meaning = "Instructions that look for near nodes: `auto` takes the widest that the "
+                       "machine has. All give the same results."},
+           neighbor.simd, levels);
 }
 
 template <class Visitor>

@@ -10,6 +10,7 @@
 
 #include "reckon/boundary/wall.hpp"
 #include "reckon/contact/contact_settings.hpp"
+#include "reckon/contact/simd_level.hpp"
 #include "reckon/domain/decomposition.hpp"
 #include "reckon/math/vec3.hpp"
 
@@ -125,6 +126,7 @@ struct TimeConfig {
 struct NeighborConfig {
   double skin{0.1};  ///< as a fraction of the smallest bounding radius, > 0
   ContactEngine engine{ContactEngine::near};  ///< changes speed, never results
+  SimdLevel simd{SimdLevel::automatic};       ///< changes speed, never results
 };
 
 /// How several processes share the work. Changes speed, never results.

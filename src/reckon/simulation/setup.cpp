@@ -100,6 +100,7 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
       .time_step = prepared.time_step.step,
       .skin = config.neighbor.skin * smallest_radius,
       .engine = config.neighbor.engine,
+      .simd = resolve(config.neighbor.simd),
       .decomposition = config.parallel.decomposition,
   };
   prepared.initial.grains = scene.grains;

@@ -37,7 +37,7 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
       shapes_{setup_.shapes.views()},
       distribution_{ranks, setup_.decomposition, total_count(ranks, state.grains.size()),
                     total_count(ranks, state.grains.size() + state.departed.size())},
-      grain_contacts_{setup_.contact, setup_.engine},
+      grain_contacts_{setup_.contact, setup_.engine, setup_.simd},
       wall_contacts_{setup_.walls, setup_.engine},
       step_{root_step(ranks, state.step)} {
   for (const ShapeView& shape : shapes_) {

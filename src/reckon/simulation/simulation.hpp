@@ -32,6 +32,7 @@ struct SimulationSetup {
   double time_step{0};  ///< [s]
   double skin{0};       ///< of the pair lists; changes the speed, never the answer [m]
   ContactEngine engine{ContactEngine::near};                     ///< likewise
+  SimdLevel simd{SimdLevel::automatic};                          ///< likewise
   DecompositionKind decomposition{DecompositionKind::balanced};  ///< likewise
 };
 

@@ -42,7 +42,9 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
   std::uint64_t touched = 0;
   std::uint64_t slept = 0;
   ContactCounters counters;
+  const std::vector<SimdLevel> levels = simd_levels_here();
   for (std::uint64_t walk = 0; walk < 300; ++walk) {
+    const PointFilter filter = point_filter(levels[walk % levels.size()]);
     RandomStream random{walk, RandomPurpose::other, 7};
     const auto pick = [&] { return static_cast<std::size_t>(random.uniform(0, 6)); };
     const ShapeView& shape_a = views[pick()];
@@ -79,7 +81,7 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
         continue;
       }
       std::vector<Touch> found;
-      wake = list.find_touches(frames[0], frames[1], odometer, found, counters);
+      wake = list.find_touches(frames[0], frames[1], odometer, filter, found, counters);
       expect_same_touches(found, expected);
       if (HasFatalFailure()) FAIL() << "walk " << walk << " step " << step;
       touched += expected.empty() ? 0U : 1U;
@@ -108,7 +110,8 @@ TEST(NearList, LooksSeldomAtWhatApproachesSlowly) {
     const double odometer = meter.travelled()[0] + meter.travelled()[1];
     if (odometer < wake) continue;
     ++looks;
-    wake = list.find_touches(frames[0], frames[1], odometer, touches, counters);
+    wake = list.find_touches(frames[0], frames[1], odometer, point_filter(SimdLevel::automatic),
+                             touches, counters);
   }
   EXPECT_LT(frames[1].position.x, 2.01);
   EXPECT_LT(looks, 100);
