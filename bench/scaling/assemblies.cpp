@@ -53,8 +53,11 @@ void fill_cube(Assembly& assembly, std::uint32_t grains, double edge, double spr
   }
 }
 
-double largest_reach(const Assembly& assembly) {
-  return 2 * *std::max_element(assembly.radii.begin(), assembly.radii.end()) + assembly.skin;
+/// As a run does: the smallest box, and bins that hold the largest grain.
+void bound(Assembly& assembly) {
+  assembly.domain = bounding_region(assembly.positions);
+  assembly.reach =
+      2 * *std::max_element(assembly.radii.begin(), assembly.radii.end()) + assembly.skin;
 }
 
 }  // namespace
@@ -64,6 +67,7 @@ Assembly packed_cube(std::uint32_t grains, double edge, double bin) {
   assembly.name = "cube";
   const double radius = bounding_radius(edge / std::cbrt(static_cast<double>(grains)));
   assembly.skin = skin_share * radius;
+  assembly.domain = {{0, 0, 0}, {edge, edge, edge}};
   assembly.reach = bin;
   const double largest = 0.5 * (bin - assembly.skin) / radius;
   fill_cube(assembly, grains, edge, std::clamp(largest, 1.0, size_spread));
@@ -76,7 +80,7 @@ Assembly dense_cube(std::uint32_t grains) {
   const double place = 1 / (2 * bounding_radius(1));  // so that the median bounding diameter is 1
   assembly.skin = skin_share * 0.5;
   fill_cube(assembly, grains, place * std::cbrt(static_cast<double>(grains)), size_spread);
-  assembly.reach = largest_reach(assembly);
+  bound(assembly);
   return assembly;
 }
 
@@ -111,7 +115,7 @@ Assembly cone_heap(std::uint32_t grains) {
   for (std::uint32_t n = 0; n < grains; ++n) {
     add_grain(assembly, places[n].middle, place, 0.5, size_spread);
   }
-  assembly.reach = largest_reach(assembly);
+  bound(assembly);
   return assembly;
 }
 

@@ -15,6 +15,7 @@ struct MeasuredRun {
   DecompositionKind decomposition{DecompositionKind::balanced};
   std::uint64_t warm_up{100};  ///< steps before the clock starts
   std::uint64_t steps{300};
+  int exchange_batches{40};  ///< of the exchange timed alone
   std::string packing_file;  ///< the packed start is kept there
 };
 

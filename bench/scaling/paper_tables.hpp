@@ -12,19 +12,6 @@ namespace paper {
 
 constexpr double bin_size = 50;
 
-/// Table 1: strong scaling of 4736 grains.
-struct StrongRow {
-  int ranks;
-  double seconds;
-};
-constexpr std::array<StrongRow, 7> table_1{{{1, 852.359},
-                                            {2, 459.581},
-                                            {4, 234.757},
-                                            {8, 118.234},
-                                            {16, 59.269},
-                                            {32, 35.175},
-                                            {64, 20.198}}};
-
 /// Table 2: strong scaling of 42,684 grains in a cube of 600, 1000 steps.
 struct BinRow {
   int ranks;

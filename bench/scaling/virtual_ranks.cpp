@@ -35,7 +35,7 @@ struct Sharing {
 };
 
 Sharing share_by_grid(const Assembly& assembly, int ranks) {
-  const GridCut cut = cut_grid(bounding_region(assembly.positions), ranks, assembly.reach);
+  const GridCut cut = cut_grid(assembly.domain, ranks, assembly.reach);
   Sharing sharing;
   sharing.owner_of = [cut](const Vec3& p) { return cut.owner_of(p); };
   for (int axis = 0; axis < 3; ++axis) {
@@ -158,14 +158,13 @@ LoadSummary summarize(const std::vector<RankLoad>& loads) {
   LoadSummary summary;
   const auto ranks = static_cast<double>(loads.size());
   double work = 0;
-  double most_work = 0;
   std::uint64_t grains = 0;
   std::uint64_t pairs = 0;
   std::uint64_t cross = 0;
   std::uint64_t ghosts = 0;
   for (const RankLoad& load : loads) {
     work += load.work;
-    most_work = std::max(most_work, load.work);
+    summary.most_work = std::max(summary.most_work, load.work);
     grains += load.grains;
     pairs += load.pairs;
     cross += load.cross_pairs;
@@ -182,9 +181,9 @@ LoadSummary summarize(const std::vector<RankLoad>& loads) {
   if (summary.pairs > 0) {
     summary.computed_twice = 0.5 * static_cast<double>(cross) / static_cast<double>(summary.pairs);
   }
-  if (most_work > 0) {
-    summary.work_ratio = most_work * ranks / work;
-    summary.speed_up = static_cast<double>(grains + summary.pairs) / most_work;
+  if (summary.most_work > 0) {
+    summary.work_ratio = summary.most_work * ranks / work;
+    summary.speed_up = static_cast<double>(grains + summary.pairs) / summary.most_work;
   }
   return summary;
 }

@@ -30,6 +30,7 @@ struct RankLoad {
 
 /// Largest values and sums over all ranks.
 struct LoadSummary {
+  double most_work{0};
   double work_ratio{1};  ///< largest work / mean work
   double speed_up{1};    ///< work of a single rank / largest work of these ranks
   std::uint64_t most_grains{0};

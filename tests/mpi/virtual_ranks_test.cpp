@@ -53,40 +53,53 @@ TEST(VirtualRanks, BalancedSharesOutHeapAndCubeEvenlyOnSixtyFourRanks) {
   }
 }
 
-/// The same counts from real ranks: a box of grains that rest apart, two steps.
-TEST(VirtualRanks, CountWhatRealRanksHoldAndSend) {
-  const auto shapes = testing::library_of({testing::bumpy_grain(0.5, 100, 12)});
-  const Assembly cube = dense_cube(1000);
+TEST(VirtualRanks, MayOutnumberBinsAndGrains) {
+  const Assembly few = dense_cube(10);
   for (const DecompositionKind kind : kinds) {
-    SimulationSetup setup;
-    setup.shapes = shapes;
-    setup.density = 1000;
-    setup.contact = {LinearLaw{1, 1, 0, 0}, 0, MasterRule::lower_id};
-    setup.time_step = 1e-9;
-    setup.skin = cube.skin;
-    setup.decomposition = kind;
-    SimulationState state;
-    Assembly assembly = cube;
-    assembly.radii.assign(assembly.radii.size(), (*shapes)[0].bounding_radius);
-    assembly.reach = 2 * assembly.radii[0] + assembly.skin;
-    for (std::uint32_t n = 0; world->is_root() && n < assembly.positions.size(); ++n) {
-      GrainState grain;
-      grain.id = GrainId{n};
-      grain.position = assembly.positions[n];
-      state.grains.push_back(grain);
-    }
-    Simulation simulation{setup, state, *world};
-    simulation.step();  // lists everything
-    simulation.step();  // a plain step
-    const std::vector<RankLoad> loads = share_out(assembly, kind, world->size());
-    const RankLoad& load = loads[static_cast<std::size_t>(world->rank())];
-    const CommunicationCounters& sent = simulation.distribution().counters();
-    EXPECT_EQ(load.grains, simulation.grains().size());
-    EXPECT_EQ(load.ghosts, simulation.distribution().ghosts().size());
-    EXPECT_EQ(load.pairs, simulation.grain_contacts().pairs().size());
-    EXPECT_EQ(sent.updates, 1U);
-    EXPECT_EQ(load.bytes, sent.update_bytes);
-    EXPECT_EQ(load.messages, sent.update_messages);
+    const LoadSummary load = summarize(share_out(few, kind, 64));
+    EXPECT_EQ(load.pairs, pair_count(few));
+    EXPECT_GE(load.idle_ranks, 54U);
+  }
+}
+
+/// A cube of equal grains that rest apart, on real ranks: listed in the first step, then a plain
+/// step. What each rank holds and sends must be what was counted for it.
+void expect_counted_load(std::uint32_t grains, DecompositionKind kind) {
+  const auto shapes = testing::library_of({testing::bumpy_grain(0.5, 100, 12)});
+  Assembly assembly = dense_cube(grains);
+  assembly.radii.assign(assembly.radii.size(), (*shapes)[0].bounding_radius);
+  assembly.reach = 2 * assembly.radii[0] + assembly.skin;
+  SimulationSetup setup;
+  setup.shapes = shapes;
+  setup.density = 1000;
+  setup.contact = {LinearLaw{1, 1, 0, 0}, 0, MasterRule::lower_id};
+  setup.time_step = 1e-9;
+  setup.skin = assembly.skin;
+  setup.decomposition = kind;
+  SimulationState state;
+  for (std::uint32_t n = 0; world->is_root() && n < grains; ++n) {
+    GrainState grain;
+    grain.id = GrainId{n};
+    grain.position = assembly.positions[n];
+    state.grains.push_back(grain);
+  }
+  Simulation simulation{setup, state, *world};
+  simulation.step();
+  simulation.step();
+  const std::vector<RankLoad> loads = share_out(assembly, kind, world->size());
+  const RankLoad& load = loads[static_cast<std::size_t>(world->rank())];
+  const CommunicationCounters& sent = simulation.distribution().counters();
+  EXPECT_EQ(load.grains, simulation.grains().size());
+  EXPECT_EQ(load.ghosts, simulation.distribution().ghosts().size());
+  EXPECT_EQ(load.pairs, simulation.grain_contacts().pairs().size());
+  EXPECT_EQ(sent.updates, 1U);
+  EXPECT_EQ(load.bytes, sent.update_bytes);
+  EXPECT_EQ(load.messages, sent.update_messages);
+}
+
+TEST(RealRanks, HoldAndSendWhatWasCounted) {
+  for (const DecompositionKind kind : kinds) {
+    for (const std::uint32_t grains : {1000U, 2U}) expect_counted_load(grains, kind);
   }
 }
 
