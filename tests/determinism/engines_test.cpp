@@ -203,7 +203,7 @@ TEST(Engines, AgreeOnEverySimdLevel) {
       scalar.step();
       for (Simulation& other : others) other.step();
     }
-    for (const Simulation& other : others) {
+    for (Simulation& other : others) {
       expect_same_state(other.state(), scalar.state());
       EXPECT_EQ(other.grain_contacts().counters(), scalar.grain_contacts().counters());
     }

@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/domain/balanced_decomposition.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace reckon {
 namespace {
-
-constexpr double most_imbalance = 1.10;  // largest cost of a rank / mean cost
 
 /// This rank's cost as a share of the mean, the largest over all ranks.
 double imbalance(const Communicator& ranks, std::span<const double> costs) {
@@ -35,30 +32,29 @@ void BalancedDecomposition::update(std::span<const Vec3> positions, std::span<co
 }
 
 int BalancedDecomposition::owner_of(GrainId /*id*/, const Vec3& position) const {
-  const auto own = static_cast<std::size_t>(ranks_.rank());
-  if (regions_[own].contains(position)) return ranks_.rank();
-  const auto found = std::find_if(regions_.begin(), regions_.end(),
-                                  [&](const Region& r) { return r.contains(position); });
-  return found != regions_.end() ? static_cast<int>(found - regions_.begin()) : ranks_.rank();
+  return region_holding(regions_, position, ranks_.rank());
+}
+
+GhostExchange::Sends sends_within_reach(std::span<const Region> regions, int own, double reach,
+                                        std::span<const BorderGrain> known) {
+  GhostExchange::Sends sends;
+  const Region& home = regions[static_cast<std::size_t>(own)];
+  for (int rank = 0; rank < static_cast<int>(regions.size()); ++rank) {
+    const Region& other = regions[static_cast<std::size_t>(rank)];
+    if (rank == own || !home.within(other, reach)) continue;
+    sends.peers.push_back(rank);
+    auto& indices = sends.indices.emplace_back();
+    for (std::uint32_t n = 0; n < known.size(); ++n) {
+      if (other.squared_distance(known[n].state.position) <= reach * reach) indices.push_back(n);
+    }
+  }
+  return sends;
 }
 
 std::unique_ptr<Ghosts> BalancedDecomposition::exchange_ghosts(
     std::vector<BorderGrain> owned) const {
   const GhostExchange::Choose to_all_within_reach = [this](std::span<const BorderGrain> known) {
-    GhostExchange::Sends sends;
-    const Region& own = regions_[static_cast<std::size_t>(ranks_.rank())];
-    for (int rank = 0; rank < ranks_.size(); ++rank) {
-      const Region& other = regions_[static_cast<std::size_t>(rank)];
-      if (rank == ranks_.rank() || !own.within(other, reach_)) continue;
-      sends.peers.push_back(rank);
-      auto& indices = sends.indices.emplace_back();
-      for (std::uint32_t n = 0; n < known.size(); ++n) {
-        if (other.squared_distance(known[n].state.position) <= reach_ * reach_) {
-          indices.push_back(n);
-        }
-      }
-    }
-    return sends;
+    return sends_within_reach(regions_, ranks_.rank(), reach_, known);
   };
   return std::make_unique<GhostExchange>(ranks_, std::move(owned),
                                          std::span{&to_all_within_reach, 1});

@@ -13,8 +13,17 @@ namespace reckon {
 [[nodiscard]] std::vector<Region> bisect(const Communicator& ranks, std::span<const Vec3> positions,
                                          std::span<const double> costs, int parts);
 
-/// Regions of equal cost, drawn again when the largest share of the cost exceeds the mean by more
-/// than a threshold. Ghosts go straight to each rank whose region is within reach.
+/// What the rank of regions[own] sends: to each rank whose region is within `reach` of its own, the
+/// grains within `reach` of that region.
+[[nodiscard]] GhostExchange::Sends sends_within_reach(std::span<const Region> regions, int own,
+                                                      double reach,
+                                                      std::span<const BorderGrain> known);
+
+/// Largest cost of a rank / mean cost, beyond which regions are drawn again.
+inline constexpr double most_imbalance = 1.10;
+
+/// Regions of equal cost, drawn again when the costs have become too uneven. Ghosts go straight to
+/// each rank whose region is within reach.
 class BalancedDecomposition final : public Decomposition {
  public:
   explicit BalancedDecomposition(Communicator ranks) : ranks_{std::move(ranks)} {}

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/domain/ghost_exchange.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "reckon/domain/packing.hpp"
 
 namespace reckon {
@@ -31,6 +34,14 @@ GhostExchange::GhostExchange(const Communicator& ranks, std::vector<BorderGrain>
     }
     stages_.push_back(std::move(stage));
   }
+  for (const Stage& stage : stages_) {
+    for (const auto& indices : stage.sends.indices) {
+      std::copy_if(indices.begin(), indices.end(), std::back_inserter(sent_owned_),
+                   [this](std::uint32_t index) { return index < owned_count_; });
+    }
+  }
+  std::sort(sent_owned_.begin(), sent_owned_.end());
+  sent_owned_.erase(std::unique(sent_owned_.begin(), sent_owned_.end()), sent_owned_.end());
   // Buffers have their final place now: bind the repeated messages to them.
   int tag = first_tag;
   for (Stage& stage : stages_) {
@@ -76,9 +87,7 @@ void GhostExchange::take(Stage& stage) {
 
 void GhostExchange::start(const std::function<GhostState(std::uint32_t)>& state_of) {
   if (stages_.empty()) return;
-  for (std::uint32_t index = 0; index < owned_count_; ++index) {
-    known_[index].state = state_of(index);
-  }
+  for (const std::uint32_t index : sent_owned_) known_[index].state = state_of(index);
   fill(stages_.front());
   stages_.front().exchange.start();
 }

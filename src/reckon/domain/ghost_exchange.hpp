@@ -86,6 +86,7 @@ class GhostExchange final : public Ghosts {
 
   std::vector<BorderGrain> known_;
   std::size_t owned_count_{0};
+  std::vector<std::uint32_t> sent_owned_;  // owned grains that some stage sends, each once
   std::vector<Stage> stages_;
   std::uint64_t bytes_per_update_{0};
   std::uint64_t messages_per_update_{0};

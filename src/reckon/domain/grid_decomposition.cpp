@@ -27,22 +27,22 @@ void GridDecomposition::update(std::span<const Vec3> positions, std::span<const 
   cut_ = cut_grid(domain, ranks_.size(), reach);
 }
 
-GhostExchange::Sends GridDecomposition::border_layer(int axis,
-                                                     std::span<const BorderGrain> known) const {
+GhostExchange::Sends border_layers(const GridCut& cut, int block, int axis,
+                                   std::span<const BorderGrain> known) {
   GhostExchange::Sends sends;
-  if (ranks_.rank() >= cut_.block_count()) return sends;
+  if (block >= cut.block_count()) return sends;
   const auto a = static_cast<std::size_t>(axis);
-  const std::array<int, 3> place = cut_.block_place(ranks_.rank());
-  const int first = cut_.first_bin(axis, place[a]);
-  const int last = cut_.first_bin(axis, place[a] + 1) - 1;
+  const std::array<int, 3> place = cut.block_place(block);
+  const int first = cut.first_bin(axis, place[a]);
+  const int last = cut.first_bin(axis, place[a] + 1) - 1;
   const auto add_neighbor = [&](int step, int border_bin) {
     std::array<int, 3> neighbor = place;
     neighbor[a] += step;
-    if (neighbor[a] < 0 || neighbor[a] >= cut_.blocks[a]) return;
-    sends.peers.push_back(cut_.block_at(neighbor));
+    if (neighbor[a] < 0 || neighbor[a] >= cut.blocks[a]) return;
+    sends.peers.push_back(cut.block_at(neighbor));
     auto& indices = sends.indices.emplace_back();
     for (std::uint32_t n = 0; n < known.size(); ++n) {
-      if (cut_.bin_of(axis, known[n].state.position[axis]) == border_bin) indices.push_back(n);
+      if (cut.bin_of(axis, known[n].state.position[axis]) == border_bin) indices.push_back(n);
     }
   };
   add_neighbor(-1, first);
@@ -54,8 +54,9 @@ std::unique_ptr<Ghosts> GridDecomposition::exchange_ghosts(std::vector<BorderGra
   std::vector<GhostExchange::Choose> phases;
   phases.reserve(3);
   for (int axis = 0; axis < 3; ++axis) {
-    phases.emplace_back(
-        [this, axis](std::span<const BorderGrain> known) { return border_layer(axis, known); });
+    phases.emplace_back([this, axis](std::span<const BorderGrain> known) {
+      return border_layers(cut_, ranks_.rank(), axis, known);
+    });
   }
   return std::make_unique<GhostExchange>(ranks_, std::move(owned), phases);
 }

@@ -7,6 +7,11 @@
 
 namespace reckon {
 
+/// What block `block` sends in the phase along `axis`: to its lower and upper neighbour the grains
+/// in its first and last layer of bins, with those that earlier phases brought there.
+[[nodiscard]] GhostExchange::Sends border_layers(const GridCut& cut, int block, int axis,
+                                                 std::span<const BorderGrain> known);
+
 /// The paper's decomposition: equal blocks of whole bins, one block a rank, a padding layer of bins
 /// around each, filled in three phases. x first; y then also passes on what x brought, and z what
 /// both brought, so that edges and corners need no messages of their own (paper, section 5.3):
@@ -33,9 +38,6 @@ class GridDecomposition final : public Decomposition {
   [[nodiscard]] const GridCut& cut() const { return cut_; }
 
  private:
-  [[nodiscard]] GhostExchange::Sends border_layer(int axis,
-                                                  std::span<const BorderGrain> known) const;
-
   Communicator ranks_;
   GridCut cut_;
   Region domain_;

@@ -38,6 +38,13 @@ Region bounding_region(std::span<const Vec3> points) {
   return region;
 }
 
+int region_holding(std::span<const Region> regions, const Vec3& p, int guess) {
+  if (regions[static_cast<std::size_t>(guess)].contains(p)) return guess;
+  const auto found = std::find_if(regions.begin(), regions.end(),
+                                  [&](const Region& region) { return region.contains(p); });
+  return found != regions.end() ? static_cast<int>(found - regions.begin()) : guess;
+}
+
 int GridCut::bin_of(int axis, double coordinate) const {
   const double bin = std::floor((coordinate - origin[axis]) / bin_size[axis]);
   const auto last = static_cast<double>(bins[static_cast<std::size_t>(axis)] - 1);

@@ -31,6 +31,10 @@ struct Region {
 /// The smallest box around points, closed by a hair so that it contains them all. No points: empty.
 [[nodiscard]] Region bounding_region(std::span<const Vec3> points);
 
+/// Which of `regions` holds `p`, tried first at `guess`; none: `guess`. They cover all of space
+/// when they come from a bisection.
+[[nodiscard]] int region_holding(std::span<const Region> regions, const Vec3& p, int guess);
+
 /// Equal blocks of a Cartesian grid (paper, section 2.2), each made of whole bins. Blocks at the
 /// outside reach to infinity, so nothing can leave the domain (paper, section 3.4).
 struct GridCut {

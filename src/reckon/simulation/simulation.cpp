@@ -11,6 +11,7 @@
 
 #include "reckon/core/error.hpp"
 #include "reckon/core/stopwatch.hpp"
+#include "reckon/neighbor/grain_costs.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
@@ -70,7 +71,8 @@ void Simulation::bring_up_to_date() {
   wall_contacts_.move_walls(step_, setup_.time_step);
   if (lists_are_stale_) {
     let_grains_out();
-    distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_, grain_costs(),
+    distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_,
+                               grain_costs(grain_contacts_.pairs(), grains_.size()),
                                2 * largest_radius_ + setup_.skin);
     phase_times_.migration += watch.lap();
     distribution_.list_ghosts(grains_);
@@ -152,7 +154,7 @@ void Simulation::rebuild_lists() {
   shared_pairs_ = static_cast<std::uint64_t>(std::count_if(
       pairs.begin(), pairs.end(),
       [owned](const Pair& pair) { return pair.slot_a >= owned || pair.slot_b >= owned; }));
-  const std::vector<double> costs = grain_costs();
+  const std::vector<double> costs = grain_costs(grain_contacts_.pairs(), grains_.size());
   cost_ = std::accumulate(costs.begin(), costs.end(), 0.0);
 }
 
@@ -171,16 +173,6 @@ void Simulation::evaluate_contacts() {
   phase_times_.grain_contacts += watch.lap();
   wall_contacts_.evaluate(owned_frames(), grain_contacts_.meter(), setup_.time_step);
   phase_times_.wall_contacts += watch.lap();
-}
-
-/// What a grain costs its rank: itself, and its share of the pairs it is in.
-std::vector<double> Simulation::grain_costs() const {
-  std::vector<double> costs(grains_.size(), 1.0);
-  for (const Pair& pair : grain_contacts_.pairs()) {
-    if (pair.slot_a < costs.size()) costs[pair.slot_a] += 0.5;
-    if (pair.slot_b < costs.size()) costs[pair.slot_b] += 0.5;
-  }
-  return costs;
 }
 
 double Simulation::farthest_motion_since_listing() const {

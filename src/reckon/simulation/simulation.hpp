@@ -114,7 +114,6 @@ class Simulation {
   [[nodiscard]] std::span<const GrainFrame> owned_frames() const {
     return std::span{frames_}.first(grains_.size());
   }
-  [[nodiscard]] std::vector<double> grain_costs() const;
   void sum_loads(std::span<EnergyLedger> ledgers);
   void advance_grains();
   void commit_springs();
