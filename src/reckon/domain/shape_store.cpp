@@ -164,6 +164,8 @@ void ShapeStore::require(const std::vector<bool>& needed) {
 
 std::uint64_t ShapeStore::resident_bytes() const { return state_->resident_bytes; }
 
+int ShapeStore::rank_on_machine() const { return state_->machine.rank(); }
+
 std::uint64_t ShapeStore::resident_shapes() const {
   return static_cast<std::uint64_t>(
       std::count(state_->resident.begin(), state_->resident.end(), true));

@@ -39,6 +39,8 @@ class ShapeStore {
   /// What grids, nodes and clusters of the shapes at hand take on this machine [bytes].
   [[nodiscard]] std::uint64_t resident_bytes() const;
   [[nodiscard]] std::uint64_t resident_shapes() const;
+  /// This rank's number among those of its machine, from 0.
+  [[nodiscard]] int rank_on_machine() const;
 
  private:
   struct State;

@@ -67,6 +67,7 @@ double per(std::uint64_t count, std::uint64_t of) {
 
 /// Sums over ranks, and what follows from them.
 struct Summary {
+  std::uint64_t machines{0};
   std::uint64_t steps{0};
   std::uint64_t bytes{0};     ///< of ghost updates
   std::uint64_t messages{0};  ///< likewise
@@ -87,6 +88,8 @@ Summary summarize(std::span<const RankPerformance> ranks) {
   const auto grain_steps = total(ranks, [](const auto& r) { return r.grain_steps; });
   const auto pair_steps = total(ranks, [](const auto& r) { return r.pair_steps; });
   const auto shared = total(ranks, [](const auto& r) { return r.shared_pair_steps; });
+  sum.machines =
+      total(ranks, [](const auto& r) { return std::uint64_t{r.rank_on_machine == 0 ? 1U : 0U}; });
   sum.steps = ranks.front().steps;
   sum.bytes = total(ranks, [](const auto& r) { return r.communication.update_bytes; });
   sum.messages = total(ranks, [](const auto& r) { return r.communication.update_messages; });
@@ -114,6 +117,7 @@ std::string performance_json(const PerformanceOfRun& run) {
   JsonWriter json;
   json.begin_object();
   json.value("ranks", run.ranks.size());
+  json.value("machines", sum.machines);
   json.value("grains", run.grains);
   json.value("steps", sum.steps);
   json.value("wall_s", run.wall_seconds);
@@ -193,10 +197,12 @@ std::string performance_table(const PerformanceOfRun& run) {
                       human_bytes(static_cast<std::uint64_t>(shapes.most)));
   if (!several) return text;
   text += fmt::format(
-      "  {} ranks of {} thread{}: work of the busiest {:.3g} times the mean; {:.3g} "
+      "  {} ranks of {} thread{} on {} machine{}: work of the busiest {:.3g} times the mean; "
+      "{:.3g} "
       "ghosts per grain; {:.2g} % of pairs computed twice\n",
       run.ranks.size(), run.ranks.front().threads, run.ranks.front().threads == 1 ? "" : "s",
-      sum.work.imbalance(), sum.ghosts_per_grain, 100 * sum.pairs_twice);
+      sum.machines, sum.machines == 1 ? "" : "s", sum.work.imbalance(), sum.ghosts_per_grain,
+      100 * sum.pairs_twice);
   text += fmt::format("  sent {} in {} messages for ghosts, {} for {} migrating grains\n",
                       human_bytes(sum.bytes), human_count(sum.messages),
                       human_bytes(sum.migration_bytes), human_count(sum.migrated_grains));

@@ -130,6 +130,7 @@ std::vector<RankPerformance> Simulation::performance() const {
   own.list_rebuilds = list_rebuilds_;
   own.peak_memory = peak_memory();
   own.shape_bytes = setup_.shapes.resident_bytes();
+  own.rank_on_machine = static_cast<std::uint64_t>(setup_.shapes.rank_on_machine());
   own.threads = static_cast<std::uint64_t>(thread_count());
   return gather(distribution_.ranks(), std::vector<RankPerformance>{own});
 }

@@ -23,6 +23,7 @@ struct RankPerformance {
   std::uint64_t peak_memory{0};        ///< of this process, shared blocks included [bytes]
   std::uint64_t shape_bytes{0};        ///< shapes at hand, once per machine [bytes]
   std::uint64_t threads{0};
+  std::uint64_t rank_on_machine{0};  ///< 0 on one rank of every machine
 };
 
 }  // namespace reckon
