@@ -3,9 +3,9 @@
 #include "reckon/domain/shape_store.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <exception>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -100,17 +100,16 @@ void ShapeStore::State::load(const std::vector<std::size_t>& wanted) {
   for (const std::size_t s : wanted) take_parts(counter, outlines[s]);
   SharedMemory block{machine, counter.used()};
   Parts parts{block.bytes()};
+  std::vector<ShapeParts> places;
+  for (const std::size_t s : wanted) places.push_back(take_parts(parts, outlines[s]));
   std::string problem;
-  for (const std::size_t s : wanted) {
-    const ShapeParts place = take_parts(parts, outlines[s]);
-    show(place, views[s]);
-    if (block.shared() && !machine.is_root()) continue;
-    if (!problem.empty()) continue;
-    try {
-      fill(place, read(ShapeId{static_cast<std::uint32_t>(s)}));
-    } catch (const std::exception& error) {
-      problem = error.what();
+  try {
+    for (std::size_t n = 0; n < wanted.size(); ++n) {
+      if (block.shared() && !machine.is_root()) break;
+      fill(places[n], read(ShapeId{static_cast<std::uint32_t>(wanted[n])}));
     }
+  } catch (const std::exception& error) {
+    problem = error.what();
   }
   const bool failed = machine.any(!problem.empty());  // also: everything is written
   if (failed) {
@@ -118,7 +117,10 @@ void ShapeStore::State::load(const std::vector<std::size_t>& wanted) {
                  .reason = problem.empty() ? "another rank of this machine says why" : problem,
                  .fix = {}}};
   }
-  for (const std::size_t s : wanted) resident[s] = true;
+  for (std::size_t n = 0; n < wanted.size(); ++n) {
+    show(places[n], views[wanted[n]]);
+    resident[wanted[n]] = true;
+  }
   resident_bytes += counter.used();
   blocks.push_back(std::move(block));
 }
