@@ -12,22 +12,9 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/stopwatch.hpp"
 #include "reckon/parallel/threads.hpp"
-#include "workloads.hpp"
 
 namespace reckon::bench {
 namespace {
-
-/// Each component even in [-a, a]: the mean length of such a vector is 0.9606 a.
-constexpr double random_acceleration = 10 * 9.81 / 0.9606;
-
-Workload make_shaken_box(const MeasuredRun& run) {
-  Workload work = make_workload("dense", {.grains = run.grains, .cache = run.cache});
-  for (Wall& wall : work.setup.walls) wall.motion = WallMotion{};
-  work.setup.damping = 0;
-  work.setup.body_force.random_acceleration = random_acceleration;
-  work.setup.decomposition = run.decomposition;
-  return work;
-}
 
 double sum(const Communicator& ranks, double value) {
   constexpr double unit = 1e-9;
@@ -84,16 +71,20 @@ Ratio over_ranks(const Communicator& ranks, double value) {
 }  // namespace
 
 std::string measured_columns() {
-  return "grains,ranks,threads,decomposition,steps,step_us,grain_contacts_us,walls_us,"
+  return "workload,grains,ranks,threads,decomposition,steps,step_us,grain_contacts_us,walls_us,"
          "frames_loads_motion_us,lists_us,border_us,migration_us,agreement_us,exchange_alone_us,"
          "list_rebuilds,migrated_grains,most_grains,most_ghosts,most_bytes_per_step,"
          "most_messages_per_step,pairs_ratio,tested_nodes_ratio";
 }
 
 std::string measure(const MeasuredRun& run, const Communicator& ranks) {
-  if (ranks.is_root() && !run.cache.empty()) static_cast<void>(make_shaken_box(run));
-  ranks.barrier();  // the packing's file is there now
-  Workload work = make_shaken_box(run);
+  if (ranks.is_root() && !run.request.cache.empty()) {
+    static_cast<void>(make_workload(run.workload, run.request));
+  }
+  ranks.barrier();  // a packing to keep is kept now
+  Workload work = make_workload(run.workload, run.request);
+  work.setup.decomposition = run.decomposition;
+  const std::size_t grain_count = work.state.grains.size();
   if (!ranks.is_root()) work.state = {};
   Simulation simulation{work.setup, work.state, ranks};
   for (std::uint64_t n = 0; n < run.warm_up; ++n) simulation.step();
@@ -140,13 +131,13 @@ std::string measure(const MeasuredRun& run, const Communicator& ranks) {
       1e6 * ranks.max(exchange_alone(simulation, simulation.state(), run.exchange_batches));
   if (!ranks.is_root()) return {};
   return fmt::format(
-      "{},{},{},{},{},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{},{:.0f},"
+      "{},{},{},{},{},{},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{},{:.0f},"
       "{:.0f},{:.0f},{:.0f},{:.0f},{:.3f},{:.3f}",
-      run.grains, ranks.size(), thread_count(), name_of(run.decomposition), run.steps,
-      1e6 * seconds / steps, contact_time, wall_time, motion_time, list_time, border_time,
-      migration_time, agreement_time, alone, simulation.list_rebuilds() - rebuilds_before, migrated,
-      grains.most, ghosts.most, bytes.most / updates, sent.most / updates, pairs.most / pairs.mean,
-      nodes.most / nodes.mean);
+      run.workload, grain_count, ranks.size(), thread_count(), name_of(run.decomposition),
+      run.steps, 1e6 * seconds / steps, contact_time, wall_time, motion_time, list_time,
+      border_time, migration_time, agreement_time, alone,
+      simulation.list_rebuilds() - rebuilds_before, migrated, grains.most, ghosts.most,
+      bytes.most / updates, sent.most / updates, pairs.most / pairs.mean, nodes.most / nodes.mean);
 }
 
 }  // namespace reckon::bench

@@ -68,15 +68,11 @@ if $measured; then
       for decomposition in balanced grid; do
         [[ $layout == 1x* && $decomposition == grid ]] && continue
         for ((repeat = 0; repeat < repeats; ++repeat)); do
-          on_ranks "${layout%x*}" "${layout#*x}" measure --grains "$grains" \
+          on_ranks "${layout%x*}" "${layout#*x}" measure "paper-$grains" \
             --decomposition $decomposition --cache "$packings" >>"$table.tmp"
         done
       done
     done
-  done
-  # As many grains on one rank as each of two had.
-  for ((repeat = 0; repeat < repeats; ++repeat)); do
-    on_ranks 1 1 measure --grains 2368 --cache "$packings" >>"$table.tmp"
   done
   mv "$table.tmp" "$table"
 fi

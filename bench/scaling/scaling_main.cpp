@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "bin_counts.hpp"
@@ -15,7 +16,6 @@
 #include "reckon/core/error.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "virtual_ranks.hpp"
-#include "workloads.hpp"
 
 namespace reckon::bench {
 namespace {
@@ -63,10 +63,10 @@ void print_load(const Assembly& assembly, DecompositionKind kind, int ranks) {
 }
 
 /// Grains at rest in a closed box under pressure, from a simulation.
-Assembly squeezed_cube(std::uint32_t grains, const std::filesystem::path& cache) {
+Assembly squeezed_cube(const WorkloadRequest& request) {
+  const Workload work = make_workload("dense", request);
   Assembly assembly;
   assembly.name = "squeezed";
-  const Workload work = make_workload("dense", {.grains = grains, .cache = cache});
   assembly.skin = work.setup.skin;
   for (const GrainState& grain : work.state.grains) {
     assembly.positions.push_back(grain.position);
@@ -90,7 +90,9 @@ struct Options {
 
 Assembly make_assembly(const Options& options) {
   if (options.assembly == "heap") return cone_heap(options.grains);
-  if (options.assembly == "squeezed") return squeezed_cube(options.grains, options.run.cache);
+  if (options.assembly == "squeezed") {
+    return squeezed_cube({.grains = options.grains, .cache = options.run.request.cache});
+  }
   if (options.assembly == "paper") {
     Assembly assembly = packed_cube(options.grains, options.edge, paper::bin_size);
     assembly.name = "paper";
@@ -124,7 +126,6 @@ void print_measured(Options& options, const Communicator& ranks) {
   for (const auto& [name, kind] : decomposition_names) {
     if (options.decomposition == name) options.run.decomposition = kind;
   }
-  options.run.grains = options.grains;
   const std::string line = measure(options.run, ranks);
   if (ranks.is_root()) fmt::print("{}\n", line);
 }
@@ -147,12 +148,13 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): ends wi
   count->add_option("--grains", options.grains, "Number of grains");
   count->add_option("--edge", options.edge, "Edge of the cube of \"paper\"");
   count->add_option("--ranks", options.ranks, "Numbers of ranks")->delimiter(',');
-  count->add_option("--cache", options.run.cache, "Keep squeezed packings in this folder");
+  count->add_option("--cache", options.run.request.cache, "Folder that keeps packings");
   auto* weak = app.add_subcommand("weak", "Loads of the assemblies of the paper's Table 3");
   weak->add_option("--most-ranks", options.most_ranks, "Leave out rows with more ranks");
   auto* columns = app.add_subcommand("columns", "Names of the columns that measure prints");
   auto* measured = app.add_subcommand("measure", "Times the ranks that mpirun started");
-  measured->add_option("--grains", options.grains, "Number of grains");
+  measured->add_option("workload", options.run.workload, "A workload of reckon bench");
+  measured->add_option("--grains", options.run.request.grains, "0: as many as the workload has");
   measured->add_option("--warm-up", options.run.warm_up, "Steps before the clock starts");
   measured->add_option("--steps", options.run.steps, "Steps that are timed");
   measured->add_option("--exchange-batches", options.run.exchange_batches,
@@ -160,7 +162,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): ends wi
   measured->add_option("--decomposition", options.decomposition, "balanced, grid, bins, replicated")
       ->default_val("balanced")
       ->check(CLI::IsMember({"balanced", "grid", "bins", "replicated"}));
-  measured->add_option("--cache", options.run.cache, "Keep packings in this folder");
+  measured->add_option("--cache", options.run.request.cache, "Folder that keeps packings");
   CLI11_PARSE(app, argc, argv);
   set_thread_count(options.threads);
   try {
