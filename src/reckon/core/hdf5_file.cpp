@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 #include <utility>
 
 #include "reckon/core/error.hpp"
@@ -38,10 +39,17 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// HDF5 prints its errors unless told otherwise; libraries of ours never print.
+/// HDF5 serves one thread at a time.
+std::recursive_mutex& hdf5_mutex() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+/// For the time of a call: the library is ours alone, and keeps its errors to itself. (It prints
+/// them unless told otherwise.)
 class QuietHdf5 {
  public:
-  QuietHdf5() {
+  QuietHdf5() : lock_{hdf5_mutex()} {
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
@@ -50,6 +58,7 @@ class QuietHdf5 {
   QuietHdf5& operator=(const QuietHdf5&) = delete;
 
  private:
+  std::lock_guard<std::recursive_mutex> lock_;
   H5E_auto2_t function_{nullptr};
   void* data_{nullptr};
 };
@@ -173,6 +182,7 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& target, Hdf5Kind kind)
 }
 
 Hdf5Writer::~Hdf5Writer() {
+  const QuietHdf5 quiet;
   if (file_ >= 0) H5Fclose(file_);
 }
 
@@ -255,6 +265,7 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path, const Hdf5Kind& kind) 
 }
 
 Hdf5Reader::~Hdf5Reader() {
+  const QuietHdf5 quiet;
   if (file_ >= 0) H5Fclose(file_);
 }
 

@@ -122,6 +122,7 @@ std::string performance_json(const PerformanceOfRun& run) {
   json.value("steps", sum.steps);
   json.value("wall_s", run.wall_seconds);
   json.value("output_s", run.output_seconds);
+  json.value("background_output_s", run.background_seconds);
   json.value("ns_per_grain_step",
              1e9 * share(run.wall_seconds, static_cast<double>(sum.steps * run.grains)));
   json.value("ghosts_per_grain", sum.ghosts_per_grain);
@@ -184,7 +185,9 @@ std::string performance_table(const PerformanceOfRun& run) {
   };
   for (const Phase& phase : phases)
     row(phase.name, spread(run.ranks, phase.seconds), phase.meaning);
-  row("output", {run.output_seconds, run.output_seconds}, "writing files");
+  row("output", {run.output_seconds, run.output_seconds},
+      fmt::format("waiting for files; {} more were written meanwhile",
+                  human_duration(run.background_seconds)));
   text += fmt::format(
       "  {:.3g} ns per grain and step; lists rebuilt every {:.3g} steps; {:.3g} "
       "listed pairs per grain\n",

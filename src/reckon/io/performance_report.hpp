@@ -14,8 +14,9 @@ namespace reckon {
 struct PerformanceOfRun {
   std::span<const RankPerformance> ranks;
   std::uint64_t grains{0};
-  double wall_seconds{0};    ///< of the session
-  double output_seconds{0};  ///< of these, spent on writing by the root
+  double wall_seconds{0};        ///< of the session
+  double output_seconds{0};      ///< of these, in which steps waited for files
+  double background_seconds{0};  ///< in which files were written while steps went on
 };
 
 /// performance.json: counters and time per phase, for the whole session and for every rank.

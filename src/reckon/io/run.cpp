@@ -171,7 +171,7 @@ class Session {
     fields.time = simulation_.time();
     fields.contacts = simulation_.contacts();
     fields.grains = simulation_.grain_states();
-    on_root(ranks_, [&] { files_->write_fields(fields); });
+    on_root(ranks_, [&] { files_->write_fields(std::move(fields)); });
   }
 
   void save_checkpoint() {
@@ -185,6 +185,7 @@ class Session {
 
   RunReport finish(RunEnd end) {
     measure();
+    on_root(ranks_, [&] { files_->finish_writing(); });
     if (end != RunEnd::interrupted) {
       if (ranks_.any(files_ != nullptr && !files_->history_has(progress_.step))) append_history();
       if (ranks_.any(files_ != nullptr && !files_->fields_have(progress_.step))) write_fields();
@@ -192,7 +193,7 @@ class Session {
     if (end != RunEnd::nothing_to_do && !(has_checkpoint_ && last_checkpoint_ == progress_.step)) {
       save_checkpoint();
     }
-    update_progress();
+    on_root(ranks_, [&] { files_->finish_writing(); });
     const char* status = end == RunEnd::interrupted ? "interrupted"
                          : end == RunEnd::at_rest   ? "at rest"
                                                     : "complete";

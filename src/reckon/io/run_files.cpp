@@ -59,26 +59,42 @@ void RunFiles::begin(const Measurement& at_start) {
 }
 
 void RunFiles::append_history(const Measurement& measurement) {
+  Stopwatch watch;
   outputs_->append_history(measurement, checkpoint_.energy_at_start);
+  output_seconds_ += watch.lap();
 }
 
-void RunFiles::write_fields(const FieldsAtStep& fields) {
+void RunFiles::in_background(BackgroundWriter::Job job) {
   Stopwatch watch;
-  outputs_->write_fields(fields);
-  record_.output_seconds += watch.lap();
+  writer_.submit([this, job = std::move(job)] {
+    Stopwatch busy;
+    job();
+    background_seconds_ = background_seconds_ + busy.lap();
+  });
+  output_seconds_ += watch.lap();
+}
+
+void RunFiles::write_fields(FieldsAtStep fields) {
+  in_background([this, fields = std::move(fields)] { outputs_->write_fields(fields); });
 }
 
 void RunFiles::write_checkpoint(SimulationState state) {
+  in_background([this, state = std::move(state)]() mutable {
+    const std::uint64_t step = state.step;
+    checkpoint_.state = std::move(state);
+    reckon::write_checkpoint(folder_.checkpoint(step), checkpoint_);
+    checkpoint_.state = {};
+    if (latest_ && *latest_ != step && !is_due(*latest_, config_.checkpoint_interval)) {
+      std::filesystem::remove(folder_.checkpoint(*latest_));
+    }
+    latest_ = step;
+  });
+}
+
+void RunFiles::finish_writing() {
   Stopwatch watch;
-  checkpoint_.state = std::move(state);
-  const std::uint64_t step = checkpoint_.state.step;
-  reckon::write_checkpoint(folder_.checkpoint(step), checkpoint_);
-  checkpoint_.state = {};
-  if (latest_ && *latest_ != step && !is_due(*latest_, config_.checkpoint_interval)) {
-    std::filesystem::remove(folder_.checkpoint(*latest_));
-  }
-  latest_ = step;
-  record_.output_seconds += watch.lap();
+  writer_.finish();
+  output_seconds_ += watch.lap();
 }
 
 void RunFiles::write_record(const std::string& status, const RunProgress& progress,
@@ -87,10 +103,11 @@ void RunFiles::write_record(const std::string& status, const RunProgress& progre
   record_.step = progress.step;
   record_.wall_seconds = progress.wall_seconds;
   record_.ranks = performance.size();
+  record_.output_seconds = output_seconds_;
   if (!performance.empty()) record_.list_rebuilds = performance.front().list_rebuilds;
   write_run_record(folder_.json(), record_);
-  const PerformanceOfRun run{performance, record_.grains, progress.wall_seconds,
-                             record_.output_seconds};
+  const PerformanceOfRun run{performance, record_.grains, progress.wall_seconds, output_seconds_,
+                             background_seconds_};
   write_file(folder_.performance(), performance_json(run));
   performance_text_ = performance_table(run);
 }
@@ -100,6 +117,11 @@ std::filesystem::path RunFiles::checkpoint_file() const {
 }
 
 ErrorText RunFiles::fail(ErrorText text, const RunProgress& progress) {
+  try {
+    writer_.finish();
+  } catch (const std::exception&) {
+    // What is told is the failure that came first.
+  }
   if (!text.fix.empty()) text.fix += ' ';
   text.fix += latest_ ? fmt::format("The last checkpoint is {} (step {}).",
                                     checkpoint_file().string(), *latest_)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "reckon/core/error.hpp"
+#include "reckon/io/background_writer.hpp"
 #include "reckon/io/checkpoint.hpp"
 #include "reckon/io/run.hpp"
 #include "reckon/io/run_folder.hpp"
@@ -34,14 +36,19 @@ class RunFiles {
   void log(const std::string& text) const;  ///< in the log alone
   void begin(const Measurement& at_start);  ///< the first row of a fresh run
   void append_history(const Measurement& measurement);
-  void write_fields(const FieldsAtStep& fields);
+  /// Fields and checkpoints are written while the caller goes on; what goes wrong then is thrown by
+  /// a later call.
+  void write_fields(FieldsAtStep fields);
   /// A checkpoint that the scene did not ask for gives way to the next one.
   void write_checkpoint(SimulationState state);
+  /// Waits until all of it is written.
+  void finish_writing();
   void write_record(const std::string& status, const RunProgress& progress,
                     std::span<const RankPerformance> performance);
   /// Puts the latest checkpoint into the advice of an error, and the failure into the record.
   [[nodiscard]] ErrorText fail(ErrorText text, const RunProgress& progress);
 
+  // As of the last finish_writing().
   [[nodiscard]] bool history_has(std::uint64_t step) const { return outputs_->history_has(step); }
   [[nodiscard]] bool fields_have(std::uint64_t step) const { return outputs_->fields_have(step); }
   [[nodiscard]] std::optional<std::uint64_t> latest_checkpoint() const { return latest_; }
@@ -50,6 +57,8 @@ class RunFiles {
   [[nodiscard]] double energy_at_start() const { return checkpoint_.energy_at_start; }
 
  private:
+  void in_background(BackgroundWriter::Job job);
+
   const RunHooks& hooks_;
   OutputConfig config_;
   RunFolder folder_;
@@ -60,7 +69,10 @@ class RunFiles {
   bool resumed_{false};
   std::optional<std::uint64_t> latest_;
   RunRecord record_;
-  std::string performance_text_;  // as of the last write_record
+  double output_seconds_{0};                   // in which the caller waited
+  std::atomic<double> background_seconds_{0};  // in which it did not
+  std::string performance_text_;               // as of the last write_record
+  BackgroundWriter writer_;                    // last: its jobs use the rest
 };
 
 }  // namespace reckon
