@@ -80,8 +80,7 @@ double NearWall::find_touches(const GrainFrame& grain, const Wall& wall, const W
           ++counters.tested_nodes;
           const double phi = test_node(grain, wall, surface, center, node.node, node.place_body,
                                        node.area, touches);
-          node.wake = phi < 0 ? wake_always : odometer + std::max(phi - margin, 0.0);
-          return phi < 0;
+          return phi < 0 ? wake_always : odometer + std::max(phi - margin, 0.0);
         });
       },
       wall.surface);
@@ -102,7 +101,11 @@ void NearWall::make(const GrainFrame& grain, const Wall& wall, const Pose& pose,
   const ShapeView& shape = *grain.shape;
   const double skin = list_skin(shape);
   double rest = wake_never;
-  thread_local std::vector<Node> found;
+  struct Found {
+    Node node;
+    double wake;
+  };
+  thread_local std::vector<Found> found;
   found.clear();
   std::visit(
       [&](const auto& surface) {
@@ -123,7 +126,7 @@ void NearWall::make(const GrainFrame& grain, const Wall& wall, const Pose& pose,
               continue;
             }
             found.push_back(
-                {shape.node(n), shape.node_area[n], odometer + std::max(node_bound, 0.0), n});
+                {{shape.node(n), shape.node_area[n], n}, odometer + std::max(node_bound, 0.0)});
           }
         }
       },
@@ -131,7 +134,7 @@ void NearWall::make(const GrainFrame& grain, const Wall& wall, const Pose& pose,
   ++counters.lists_made;
   counters.listed_nodes += found.size();
   list_.restart({shape.bounding_radius}, pose, odometer, rest, found.size());
-  for (std::size_t n = 0; n < found.size(); ++n) list_.set_node(n, found[n]);
+  for (std::size_t n = 0; n < found.size(); ++n) list_.set_node(n, found[n].node, found[n].wake);
 }
 
 }  // namespace reckon

@@ -36,7 +36,6 @@ class NearWall {
   struct Node {
     Vec3 place_body;  // [m]
     double area{0};   // [m^2]
-    double wake{0};   // odometer reading
     NodeIndex node{0};
   };
 

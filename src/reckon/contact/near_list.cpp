@@ -64,8 +64,7 @@ double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave,
   return list_.look(odometer, touches, [&](Node& node) {
     ++counters.tested_nodes;
     const auto sleep = [&](double clearance) {
-      node.wake = odometer + std::max(clearance - margin, 0.0);
-      return false;
+      return odometer + std::max(clearance - margin, 0.0);
     };
     const Vec3 point = at.turn * node.place_body + at.shift;
     if (!(squared_norm(point) < other.radius_squared)) {
@@ -82,11 +81,10 @@ double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave,
     }
     const double phi = node.cell.value(where.x, where.y, where.z);
     if (!(phi < 0)) return sleep(phi * other.slope);
-    node.wake = wake_always;
     const Vec3 gradient_body = node.cell.gradient(where.x, where.y, where.z) / other.grid.spacing;
     touches.push_back({node.node, phi, slave.rotation * gradient_body,
                        master.rotation * node.place_body, node.area});
-    return true;
+    return wake_always;
   });
 }
 
@@ -162,10 +160,9 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Place
                 at, odometer, rest, found.size());
   for (std::size_t n = 0; n < found.size(); ++n) {
     const NodeIndex node = found[n].node;
-    list_.set_node(n, {.place_body = master.node(node),
-                       .area = master.node_area[node],
-                       .wake = odometer + std::max(found[n].clearance, 0.0),
-                       .node = node});
+    list_.set_node(n,
+                   {.place_body = master.node(node), .area = master.node_area[node], .node = node},
+                   odometer + std::max(found[n].clearance, 0.0));
   }
 }
 

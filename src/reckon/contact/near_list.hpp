@@ -41,7 +41,6 @@ class NearList {
     Vec3 place_body;      // in the master [m]
     double area{0};       // [m^2]
     CellPolynomial cell;  // of the cell (i, j, k)
-    double wake{0};       // odometer reading
     std::int32_t i{-1};   // -1: no cell yet
     std::int32_t j{0};
     std::int32_t k{0};

@@ -9,6 +9,7 @@ namespace reckon {
 void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector<Touch>& touches) {
   const ShapeView& shape = *master.shape;
   const ShapeView& other = *slave.shape;
+  const LevelSetView grid = other.level_set;  // a copy: the compiler may keep it in registers
   if (!spheres_meet(master.position - slave.position,
                     shape.bounding_radius + other.bounding_radius)) {
     return;
@@ -19,9 +20,13 @@ void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector
     const Vec3 node_body{shape.node_x[n], shape.node_y[n], shape.node_z[n]};
     const Vec3 point = at.turn * node_body + at.shift;
     if (!(squared_norm(point) < radius_squared)) continue;
-    const auto sample = other.level_set.sample(point);
-    if (!sample.inside_grid || !(sample.phi < 0)) continue;
-    touches.push_back({static_cast<NodeIndex>(n), sample.phi, slave.rotation * sample.gradient_body,
+    const auto where = grid.locate(point);
+    if (!where.inside) continue;
+    const CellPolynomial cell = grid.polynomial(where.i, where.j, where.k);
+    const double phi = cell.value(where.x, where.y, where.z);
+    if (!(phi < 0)) continue;
+    const Vec3 gradient_body = cell.gradient(where.x, where.y, where.z) / grid.spacing;
+    touches.push_back({static_cast<NodeIndex>(n), phi, slave.rotation * gradient_body,
                        master.rotation * node_body, shape.node_area[n]});
   }
 }

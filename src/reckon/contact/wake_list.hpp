@@ -29,10 +29,11 @@ namespace reckon {
 ///
 /// All of it is one block of memory. A step on a resting contact reads its front and no more:
 ///
-///   | marks, Partner | Reference | touching nodes by index | other nodes by index | spare |
+///   | marks, Partner | Reference | touching nodes by index | other nodes by index | wake-ups |
 ///
 /// Partner: what a test needs of the other side. Reference: how both lay when the list was made.
-/// Node: what a test needs of a node; it has the fields `double wake` and `NodeIndex node`.
+/// Node: what a test needs of a node; it has the field `NodeIndex node`. Wake-ups stand apart from
+/// their nodes, since most are looked at without them.
 template <class Partner, class Reference, class Node>
 class WakeList {
   static_assert(std::is_trivially_copyable_v<Partner> && std::is_trivially_copyable_v<Reference> &&
@@ -62,22 +63,34 @@ class WakeList {
     block_->partner = partner;
     block_->reference = reference;
   }
-  void set_node(std::size_t n, const Node& node) { nodes()[n] = node; }
+  void set_node(std::size_t n, const Node& node, double wake) {
+    nodes()[n] = node;
+    wakes()[n] = wake;
+  }
 
-  /// Calls test(node) for every node that may touch. It must set node.wake, to wake_always if the
-  /// node touches; then it appends to `touches` and returns true. Touches end up in node order.
+  /// Calls test(node) for every node that may touch. It returns the node's wake-up, or, if the node
+  /// touches, wake_always after appending to `touches`. Touches end up in node order.
   /// Returns the odometer reading before which no node of the list can touch.
   template <class Test>
   double look(double odometer, std::vector<Touch>& touches, Test&& test) {
     Head& head = *block_;
     Node* const node = nodes();
     bool changed = false;
-    for (std::uint32_t n = 0; n < head.touching; ++n) changed |= !test(node[n]);
+    for (std::uint32_t n = 0; n < head.touching; ++n) {
+      const double wake = test(node[n]);
+      if (wake == wake_always) continue;
+      wakes()[n] = wake;
+      changed = true;
+    }
     if (!(odometer < head.next_wake)) {
+      double* const wake = wakes();
       head.next_wake = wake_never;
       for (std::uint32_t n = head.touching; n < head.count; ++n) {
-        if (!(odometer < node[n].wake)) changed |= test(node[n]);
-        head.next_wake = std::min(head.next_wake, node[n].wake);
+        if (!(odometer < wake[n])) {
+          wake[n] = test(node[n]);
+          changed |= wake[n] == wake_always;
+        }
+        head.next_wake = std::min(head.next_wake, wake[n]);
       }
     }
     if (changed) regroup(touches);
@@ -85,9 +98,7 @@ class WakeList {
   }
 
   /// Memory held.
-  [[nodiscard]] std::size_t bytes() const {
-    return block_ ? sizeof(Head) + block_->capacity * sizeof(Node) : 0;
-  }
+  [[nodiscard]] std::size_t bytes() const { return block_ ? bytes_for(block_->capacity) : 0; }
 
   /// Asks the memory for what the next look reads.
   void prefetch() const {
@@ -116,36 +127,55 @@ class WakeList {
   struct FreeBlock {
     void operator()(Head* head) const { ::operator delete (head, std::align_val_t{alignof(Head)}); }
   };
-  static_assert(alignof(Node) <= alignof(Head));
+  static_assert(alignof(Node) <= alignof(Head) && alignof(double) <= alignof(Node));
+
+  [[nodiscard]] static std::size_t bytes_for(std::size_t capacity) {
+    return sizeof(Head) + capacity * (sizeof(Node) + sizeof(double));
+  }
 
   [[nodiscard]] Node* nodes() const {
     return std::launder(reinterpret_cast<Node*>(block_.get() + 1));
+  }
+
+  [[nodiscard]] double* wakes() const {
+    return std::launder(reinterpret_cast<double*>(nodes() + block_->capacity));
   }
 
   /// Makes room; what the block held is lost if it must grow.
   void reserve(std::uint32_t count) {
     if (block_ && block_->capacity >= count) return;
     const std::uint32_t capacity = (count + 3) / 4 * 4;
-    void* const memory =
-        ::operator new (sizeof(Head) + capacity * sizeof(Node), std::align_val_t{alignof(Head)});
+    void* const memory = ::operator new (bytes_for(capacity), std::align_val_t{alignof(Head)});
     block_.reset(new (memory) Head{});
     block_->capacity = capacity;
-    std::uninitialized_value_construct_n(reinterpret_cast<Node*>(block_.get() + 1), capacity);
+    Node* const first = reinterpret_cast<Node*>(block_.get() + 1);
+    std::uninitialized_value_construct_n(first, capacity);
+    std::uninitialized_value_construct_n(reinterpret_cast<double*>(first + capacity), capacity);
   }
 
   /// Touching nodes to the front; both groups, and the touches, in node order.
   void regroup(std::vector<Touch>& touches) {
+    struct Entry {
+      Node node;
+      double wake;
+    };
+    thread_local std::vector<Entry> entries;
     Head& head = *block_;
-    Node* const end = nodes() + head.count;
-    const auto touching = [](const Node& n) { return n.wake == wake_always; };
-    std::sort(nodes(), end, [&](const Node& a, const Node& b) {
-      return touching(a) != touching(b) ? touching(a) : a.node < b.node;
+    entries.clear();
+    for (std::uint32_t n = 0; n < head.count; ++n) entries.push_back({nodes()[n], wakes()[n]});
+    const auto touching = [](const Entry& e) { return e.wake == wake_always; };
+    std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+      return touching(a) != touching(b) ? touching(a) : a.node.node < b.node.node;
     });
-    const Node* const first_other = std::partition_point(nodes(), end, touching);
-    head.touching = static_cast<std::uint32_t>(first_other - nodes());
+    head.touching = 0;
     head.next_wake = wake_never;
-    for (const Node* n = first_other; n != end; ++n) {
-      head.next_wake = std::min(head.next_wake, n->wake);
+    for (std::uint32_t n = 0; n < head.count; ++n) {
+      set_node(n, entries[n].node, entries[n].wake);
+      if (touching(entries[n])) {
+        ++head.touching;
+      } else {
+        head.next_wake = std::min(head.next_wake, entries[n].wake);
+      }
     }
     std::sort(touches.begin(), touches.end(),
               [](const Touch& a, const Touch& b) { return a.node < b.node; });
