@@ -228,7 +228,7 @@ Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& mate
     shrink(packing.high);
     for (GrainState& grain : packing.state.grains) shrink(grain.position);
     settle(60);
-    if (packing.pressure >= pressure) settle(400);
+    if (packing.pressure >= pressure) settle(150);
     const double share = packing.pressure / pressure;
     factor = share < 0.005 ? 0.993 : share < 0.3 ? 0.998 : 0.9995;
   }

@@ -215,7 +215,7 @@ const std::vector<WorkloadKind>& workload_kinds() {
   static const std::vector<WorkloadKind> kinds{
       {"dense", "279 nodes, 18 voxels; packed, sheared slowly at constant volume", 4096, 64, dense},
       {"dense-fine", "the same with 5000 nodes and 50 voxels", 1000, 27, dense_fine},
-      {"graded", "the same with diameters of 1, 4 and 10", 4000, 60, graded},
+      {"graded", "the same with diameters of 1, 4 and 10", 2000, 60, graded},
       {"settle", "thrown into a box, from drop to rest", 512, 27, settle},
       {"heap", "thrown onto a plain, from drop to rest", 512, 27, heap},
       {"paper-592", "random body forces; 74 shapes of 24 voxels", 592, 27, paper_592},

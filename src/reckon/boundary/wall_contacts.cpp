@@ -33,7 +33,7 @@ void WallContacts::move_walls(std::uint64_t step, double time_step) {
   for (std::size_t w = 0; w < walls_.size(); ++w) poses_[w] = pose_at(walls_[w], step, time_step);
 }
 
-void WallContacts::rebuild(std::span<const GrainFrame> frames, double skin) {
+void WallContacts::rebuild(std::span<const GrainFrame> frames, const MotionBudget& budget) {
   std::map<std::pair<GrainId, WallId>, std::size_t> old_place;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     old_place[{candidates_[c].grain, candidates_[c].wall}] = c;
@@ -45,7 +45,8 @@ void WallContacts::rebuild(std::span<const GrainFrame> frames, double skin) {
   first_of_slot_.assign(1, 0);
   for (std::uint32_t slot = 0; slot < frames.size(); ++slot) {
     for (std::uint32_t w = 0; w < walls_.size(); ++w) {
-      const double reach = frames[slot].shape->bounding_radius + skin;
+      const double reach = frames[slot].shape->bounding_radius + budget.of(frames[slot].velocity) +
+                           budget.of(poses_[w].velocity);
       if (!(distance(walls_[w], poses_[w], frames[slot].position) < reach)) continue;
       candidates_.push_back({slot, WallId{w}, frames[slot].id});
       const auto found = old_place.find({frames[slot].id, WallId{w}});
@@ -78,7 +79,8 @@ double WallContacts::evaluate_candidate(std::size_t c, const GrainFrame& grain, 
   touches.clear();
   double wake = wake_always;
   if (odometer) {
-    wake = near_[c].find_touches(grain, walls_[w], poses_[w], *odometer, touches, scratch.counters);
+    wake = near_[c].find_touches(grain, walls_[w], poses_[w], *odometer, counters_.evaluations,
+                                 touches, scratch.counters);
   } else {
     find_wall_touches(grain, walls_[w], poses_[w], touches);
   }

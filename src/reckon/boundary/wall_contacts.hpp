@@ -13,6 +13,7 @@
 #include "reckon/contact/motion_meter.hpp"
 #include "reckon/contact/touch.hpp"
 #include "reckon/grains/grain_frame.hpp"
+#include "reckon/neighbor/motion_budget.hpp"
 
 namespace reckon {
 
@@ -44,7 +45,8 @@ class WallContacts {
 
   /// Places the walls for one step. To be called before rebuild and evaluate.
   void move_walls(std::uint64_t step, double time_step);
-  void rebuild(std::span<const GrainFrame> frames, double skin);
+  /// Lists the grains that can meet a wall before they or it used up their budgets.
+  void rebuild(std::span<const GrainFrame> frames, const MotionBudget& budget);
   /// `meter` has followed these frames, slot by slot; the plain engine does not look at it.
   void evaluate(std::span<const GrainFrame> frames, const MotionMeter& meter, double time_step);
   void add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const;

@@ -100,7 +100,11 @@ class WakeList {
   /// Memory held.
   [[nodiscard]] std::size_t bytes() const { return block_ ? bytes_for(block_->capacity) : 0; }
 
-  /// Asks the memory for what the next look reads.
+  /// Asks the memory for the wake-ups if a look at this reading will read them. Reads the head.
+  void prefetch_wakes(double odometer) const {
+    if (block_ && !(odometer < block_->next_wake)) __builtin_prefetch(wakes());
+  }
+  /// Asks the memory for what the next look reads first.
   void prefetch() const {
     constexpr std::size_t nodes_ahead = 2;
     const auto ask = [](const void* from, std::size_t bytes) {

@@ -184,16 +184,17 @@ void Distribution::start_update(const Grains& grains) {
 
 void Distribution::finish_update() { ghosts_->finish(); }
 
-std::vector<Pair> Distribution::find_pairs(std::span<const GrainFrame> frames, double skin,
-                                           std::size_t owned) const {
+std::vector<Pair> Distribution::find_pairs(std::span<const GrainFrame> frames,
+                                           const MotionBudget& budget, std::size_t owned) const {
   std::vector<GrainId> ids;
   std::vector<Vec3> positions;
   std::vector<double> radii;
   for (const GrainFrame& frame : frames) {
     ids.push_back(frame.id);
     positions.push_back(frame.position);
-    radii.push_back(frame.shape->bounding_radius);
+    radii.push_back(frame.shape->bounding_radius + budget.of(frame.velocity));
   }
+  constexpr double skin = 0;  // the radii have it
   switch (kind_) {
     case DecompositionKind::balanced:
       return reckon::find_pairs(ids, positions, radii, skin, owned);

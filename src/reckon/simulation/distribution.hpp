@@ -10,6 +10,7 @@
 #include "reckon/contact/grain_contacts.hpp"
 #include "reckon/domain/decomposition.hpp"
 #include "reckon/grains/grain_frame.hpp"
+#include "reckon/neighbor/motion_budget.hpp"
 
 namespace reckon {
 
@@ -50,8 +51,8 @@ class Distribution {
   [[nodiscard]] std::span<const BorderGrain> ghosts() const { return ghosts_->ghosts(); }
 
   /// Pairs of near grains with at least one owned; `frames` holds owned grains, then ghosts.
-  [[nodiscard]] std::vector<Pair> find_pairs(std::span<const GrainFrame> frames, double skin,
-                                             std::size_t owned) const;
+  [[nodiscard]] std::vector<Pair> find_pairs(std::span<const GrainFrame> frames,
+                                             const MotionBudget& budget, std::size_t owned) const;
 
   [[nodiscard]] const CommunicationCounters& counters() const { return counters_; }
 

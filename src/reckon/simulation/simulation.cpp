@@ -40,7 +40,8 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
                     total_count(ranks, state.grains.size() + state.departed.size())},
       grain_contacts_{setup_.contact, setup_.engine, setup_.simd},
       wall_contacts_{setup_.walls, setup_.engine},
-      step_{root_step(ranks, state.step)} {
+      step_{root_step(ranks, state.step)},
+      budget_{MotionBudget::with(setup_.skin, setup_.time_step)} {
   for (const ShapeView& shape : shapes_) {
     largest_radius_ = std::max(largest_radius_, shape.bounding_radius);
   }
@@ -73,7 +74,7 @@ void Simulation::bring_up_to_date() {
     let_grains_out();
     distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_,
                                grain_costs(grain_contacts_.pairs(), grains_.size()),
-                               2 * largest_radius_ + setup_.skin);
+                               2 * (largest_radius_ + largest_budget()));
     phase_times_.migration += watch.lap();
     distribution_.list_ghosts(grains_);
     phase_times_.border += watch.lap();
@@ -139,13 +140,16 @@ void Simulation::add_ghost_frames() {
 }
 
 void Simulation::rebuild_lists() {
-  grain_contacts_.rebuild(distribution_.find_pairs(frames_, setup_.skin, grains_.size()),
+  grain_contacts_.rebuild(distribution_.find_pairs(frames_, budget_, grains_.size()),
                           frames_.size());
-  wall_contacts_.rebuild(owned_frames(), setup_.skin);
-  listed_positions_ = grains_.position;
-  listed_wall_displacement_.clear();
+  wall_contacts_.rebuild(owned_frames(), budget_);
+  listed_grains_.clear();
+  for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
+    listed_grains_.push_back({grains_.position[slot], budget_.of(grains_.velocity[slot])});
+  }
+  listed_walls_.clear();
   for (const WallPose& pose : wall_contacts_.poses()) {
-    listed_wall_displacement_.push_back(pose.displacement);
+    listed_walls_.push_back({pose.displacement, budget_.of(pose.velocity)});
   }
   lists_are_stale_ = false;
   ++list_rebuilds_;
@@ -175,16 +179,25 @@ void Simulation::evaluate_contacts() {
   phase_times_.wall_contacts += watch.lap();
 }
 
-double Simulation::farthest_motion_since_listing() const {
-  double moved_squared = parallel_max(grains_.size(), 0, [&](std::size_t slot) {
-    return squared_norm(grains_.position[slot] - listed_positions_[slot]);
-  });
-  for (std::size_t w = 0; w < listed_wall_displacement_.size(); ++w) {
+/// The largest of all ranks for the lists about to be made [m].
+double Simulation::largest_budget() const {
+  return distribution_.ranks().max(
+      parallel_max(grains_.size(), budget_.least,
+                   [&](std::size_t slot) { return budget_.of(grains_.velocity[slot]); }));
+}
+
+/// Whether some grain of this rank, or some wall, has moved as far as it was listed for.
+bool Simulation::some_budget_is_used_up() const {
+  const auto used_up = [](const Listed& listed, const Vec3& place) {
+    return !(squared_norm(place - listed.place) < listed.budget * listed.budget);
+  };
+  for (std::size_t w = 0; w < listed_walls_.size(); ++w) {
     const WallPose pose = pose_at(setup_.walls[w], step_, setup_.time_step);
-    moved_squared =
-        std::max(moved_squared, squared_norm(pose.displacement - listed_wall_displacement_[w]));
+    if (used_up(listed_walls_[w], pose.displacement)) return true;
   }
-  return std::sqrt(moved_squared);
+  return parallel_max(grains_.size(), 0, [&](std::size_t slot) {
+           return used_up(listed_grains_[slot], grains_.position[slot]) ? 1.0 : 0.0;
+         }) > 0;
 }
 
 /// One small reduction per step: do lists serve one more step, and is everybody still well?
@@ -192,7 +205,7 @@ void Simulation::agree_on_what_comes() {
   constexpr double fine = 0;
   constexpr double stale = 1;
   constexpr double failed = 2;
-  double news = farthest_motion_since_listing() < 0.5 * setup_.skin ? fine : stale;
+  double news = some_budget_is_used_up() ? stale : fine;
   news = std::max(news, parallel_max(grains_.size(), fine, [&](std::size_t slot) {
                     if (!motion_is_finite(slot)) return failed;
                     return is_out(slot) ? stale : fine;

@@ -30,7 +30,7 @@ struct SimulationSetup {
   BodyForce body_force;
   double damping{0};    ///< global damping xi [1/s]
   double time_step{0};  ///< [s]
-  double skin{0};       ///< of the pair lists; changes the speed, never the answer [m]
+  double skin{0};  ///< of the pair lists (MotionBudget); changes the speed, never the answer [m]
   ContactEngine engine{ContactEngine::near};                     ///< likewise
   SimdLevel simd{SimdLevel::automatic};                          ///< likewise
   DecompositionKind decomposition{DecompositionKind::balanced};  ///< likewise
@@ -119,7 +119,8 @@ class Simulation {
   void commit_springs();
   void agree_on_what_comes();
 
-  [[nodiscard]] double farthest_motion_since_listing() const;
+  [[nodiscard]] double largest_budget() const;
+  [[nodiscard]] bool some_budget_is_used_up() const;
   [[nodiscard]] bool is_out(std::size_t slot) const;
   [[nodiscard]] bool motion_is_finite(std::size_t slot) const;
   [[noreturn]] void fail_on_motion() const;
@@ -139,8 +140,14 @@ class Simulation {
   std::vector<DepartedGrain> departed_;  // on this rank
   std::uint64_t step_{0};
 
-  std::vector<Vec3> listed_positions_;  // where grains were when the lists were made
-  std::vector<Vec3> listed_wall_displacement_;
+  /// Where a grain was, or a wall's displacement, when the lists were made, and how far it may go.
+  struct Listed {
+    Vec3 place;        // [m]
+    double budget{0};  // [m]
+  };
+  MotionBudget budget_;
+  std::vector<Listed> listed_grains_;
+  std::vector<Listed> listed_walls_;
   bool lists_are_stale_{true};
   std::uint64_t list_rebuilds_{0};
   PhaseTimes phase_times_;
