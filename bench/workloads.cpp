@@ -142,7 +142,7 @@ Workload falling(std::uint32_t grains, const BoxConfig& region, const Vec3& velo
   work.course = Course::whole;
   work.warm_up = 0;
   work.steps = 250;
-  work.rests_at = 0.005;
+  work.rests_at = 0.01;
   work.stretches = 200;
   return work;
 }

@@ -63,11 +63,22 @@ TEST_F(CliTest, HelpAndVersion) {
   EXPECT_EQ(version.out.find("reckon "), 0U);
   EXPECT_EQ(version.err, "");
   EXPECT_EQ(reckon({"--help"}).code, 0);
-  for (const char* command : {"check", "run", "diff", "surfaces", "reference"}) {
+  for (const char* command : {"check", "run", "diff", "surfaces", "bench", "reference"}) {
     const Outcome help = reckon({command, "--help"});
     EXPECT_EQ(help.code, 0) << command;
     EXPECT_NE(help.out.find("Example"), std::string::npos) << command;
   }
+}
+
+TEST_F(CliTest, BenchComparesWithThePlainAlgorithm) {
+  const Outcome outcome = reckon({"bench", "paper-592", "--size", "small", "--json", "--quiet"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out.find("{"), 0U);
+  for (const char* part : {"\"ratio\": ", "\"same_bits\": true", "\"pair_lists_made\": "}) {
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << outcome.out;
+  }
+  EXPECT_EQ(reckon({"bench", "nothing"}).code, 1);
 }
 
 TEST_F(CliTest, MisuseIsOneClearBlock) {
