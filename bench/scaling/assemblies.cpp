@@ -46,9 +46,10 @@ void fill_cube(Assembly& assembly, std::uint32_t grains, double edge, double spr
   const double radius = bounding_radius(edge / std::cbrt(static_cast<double>(grains)));
   for (std::uint64_t n = 0; n < places; ++n) {
     if ((n + 1) * grains / places == n * grains / places) continue;
-    const Vec3 index{static_cast<double>(n % per_edge),
-                     static_cast<double>(n / per_edge % per_edge),
-                     static_cast<double>(n / (per_edge * per_edge))};
+    const std::uint64_t row = n / per_edge;
+    const std::uint64_t layer = row / per_edge;
+    const Vec3 index{static_cast<double>(n % per_edge), static_cast<double>(row % per_edge),
+                     static_cast<double>(layer)};
     add_grain(assembly, place * (index + Vec3{0.5, 0.5, 0.5}), place, radius, spread);
   }
 }

@@ -131,6 +131,7 @@ std::vector<RankLoad> count_loads(const Assembly& assembly, const Sharing& shari
   for (VirtualRank& rank : virtual_ranks) rank.owned = rank.known.size();
   exchange(sharing.stages, virtual_ranks);
   std::vector<RankLoad> loads;
+  loads.reserve(static_cast<std::size_t>(ranks));
   for (int rank = 0; rank < ranks; ++rank) {
     loads.push_back(
         load_of(rank, virtual_ranks[static_cast<std::size_t>(rank)], assembly, sharing, costs));
