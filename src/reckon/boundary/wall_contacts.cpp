@@ -122,7 +122,7 @@ void WallContacts::evaluate(std::span<const GrainFrame> frames, const MotionMete
   };
   if (use_near_lists) {
     visit_awake(
-        wake_,
+        wake_, [](std::size_t) { return true; },
         [&](std::size_t c) {
           return meter.travelled()[candidates_[c].slot] + travelled_[candidates_[c].wall.get()];
         },

@@ -135,19 +135,20 @@ void GrainContacts::evaluate_listed(const Law& law, std::size_t p,
 }
 
 template <ContactLaw Law>
-void GrainContacts::evaluate_pairs(const Law& law, std::span<const GrainFrame> frames,
+void GrainContacts::evaluate_pairs(const Law& law, Part part, std::span<const GrainFrame> frames,
                                    double time_step, bool use_near_lists) {
   const auto scratch = [&]() -> Scratch& {
     return scratch_[static_cast<std::size_t>(thread_index())];
   };
   if (!use_near_lists) {
-    parallel_for(pairs_.size(), 32,
-                 [&](std::size_t p) { evaluate_listed(law, p, frames, time_step, {}, scratch()); });
+    parallel_for(pairs_.size(), 32, [&](std::size_t p) {
+      if (part.has(pairs_[p])) evaluate_listed(law, p, frames, time_step, {}, scratch());
+    });
     return;
   }
   const std::span<const double> travelled = meter_.travelled();
   visit_awake(
-      wake_,
+      wake_, [&](std::size_t p) { return part.has(pairs_[p]); },
       [&](std::size_t p) { return travelled[pairs_[p].slot_a] + travelled[pairs_[p].slot_b]; },
       [&](std::size_t p) { prefetch(p, frames); },
       [&](std::size_t p, double odometer) {
@@ -163,17 +164,33 @@ void GrainContacts::prefetch(std::size_t p, std::span<const GrainFrame> frames) 
   __builtin_prefetch(reinterpret_cast<const char*>(&forces_[p]) + 64, 1);
 }
 
-void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_step) {
-  bool use_near_lists = false;
-  if (engine_ == ContactEngine::near) {
-    meter_.follow(frames);
-    use_near_lists = meter_.trustworthy();
-    if (!use_near_lists) forget_near_lists();
+bool GrainContacts::may_use_near_lists() {
+  if (engine_ != ContactEngine::near) return false;
+  if (!meter_.trustworthy()) forget_near_lists();
+  return meter_.trustworthy();
+}
+
+void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_step,
+                             std::size_t owned, const std::function<void()>& others_arrive) {
+  const bool uses_meter = engine_ == ContactEngine::near;
+  if (uses_meter) {
+    meter_.begin(frames);
+    meter_.follow(frames, 0, owned);
   }
   store_.begin_writing(thread_count());
   scratch_.resize(static_cast<std::size_t>(thread_count()));
-  std::visit([&](const auto& law) { evaluate_pairs(law, frames, time_step, use_near_lists); },
-             settings_.law);
+  const auto evaluate_part = [&](bool with_others) {
+    const Part part{static_cast<std::uint32_t>(owned), with_others};
+    const bool near = may_use_near_lists();
+    std::visit([&](const auto& law) { evaluate_pairs(law, part, frames, time_step, near); },
+               settings_.law);
+  };
+  evaluate_part(false);
+  others_arrive();
+  if (owned < frames.size()) {
+    if (uses_meter) meter_.follow(frames, owned, frames.size());
+    evaluate_part(true);
+  }
   ++counters_.evaluations;
   counters_.pairs += pairs_.size();
   for (Scratch& scratch : scratch_) {

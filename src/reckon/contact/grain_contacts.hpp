@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,7 +60,14 @@ class GrainContacts {
   void rebuild(std::vector<Pair> pairs, std::size_t slot_count);
 
   /// Finds touching nodes and computes the force of every listed pair.
-  void evaluate(std::span<const GrainFrame> frames, double time_step);
+  void evaluate(std::span<const GrainFrame> frames, double time_step) {
+    evaluate(frames, time_step, frames.size(), [] {});
+  }
+  /// The same while messages are on their way: pairs within the first `owned` frames come first;
+  /// then `others_arrive` is called, which must bring the other frames up to date (their ids are
+  /// there from the start); then come the pairs with those.
+  void evaluate(std::span<const GrainFrame> frames, double time_step, std::size_t owned,
+                const std::function<void()>& others_arrive);
 
   /// Adds every pair's force to its grains, each grain's pairs in the order of the partners' ids,
   /// and the pair's losses to its grain of lower id. Arrays are per slot.
@@ -95,10 +103,20 @@ class GrainContacts {
     NearList of_b;
   };
 
+  /// Pairs of which frames are there already, or the others.
+  struct Part {
+    std::uint32_t owned;
+    bool with_others;
+
+    [[nodiscard]] bool has(const Pair& pair) const {
+      return with_others == (pair.slot_a >= owned || pair.slot_b >= owned);
+    }
+  };
   void forget_near_lists();
+  [[nodiscard]] bool may_use_near_lists();
   template <ContactLaw Law>
-  void evaluate_pairs(const Law& law, std::span<const GrainFrame> frames, double time_step,
-                      bool use_near_lists);
+  void evaluate_pairs(const Law& law, Part part, std::span<const GrainFrame> frames,
+                      double time_step, bool use_near_lists);
   template <ContactLaw Law>
   void evaluate_listed(const Law& law, std::size_t p, std::span<const GrainFrame> frames,
                        double time_step, std::optional<double> odometer, Scratch& scratch);

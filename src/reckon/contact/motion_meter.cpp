@@ -33,12 +33,17 @@ bool is_rotation(const Mat3& matrix) {
   return std::abs(squared_norm(matrix.row_x) - 1) <= squared_length_tolerance;
 }
 
-void MotionMeter::follow(std::span<const GrainFrame> frames) {
+void MotionMeter::begin(std::span<const GrainFrame> frames) {
   const bool same_slots =
       std::equal(frames.begin(), frames.end(), seen_.begin(), seen_.end(),
                  [](const GrainFrame& frame, const Seen& seen) { return frame.id == seen.id; });
   if (!same_slots) reorder(frames);
-  const double bad = parallel_max(frames.size(), 0, [&](std::size_t slot) {
+  trustworthy_ = true;
+}
+
+void MotionMeter::follow(std::span<const GrainFrame> frames, std::size_t first, std::size_t last) {
+  const double bad = parallel_max(last - first, 0, [&](std::size_t n) {
+    const std::size_t slot = first + n;
     const GrainFrame& now = frames[slot];
     Seen& before = seen_[slot];
     if (now.position != before.position || now.rotation != before.rotation) {
@@ -51,7 +56,7 @@ void MotionMeter::follow(std::span<const GrainFrame> frames) {
     }
     return is_rotation(now.rotation) ? 0.0 : 1.0;
   });
-  trustworthy_ = bad == 0;
+  trustworthy_ = trustworthy_ && bad == 0;
 }
 
 void MotionMeter::reorder(std::span<const GrainFrame> frames) {

@@ -29,7 +29,14 @@ class MotionMeter {
  public:
   /// Adds the motion since the last call. Slots may hold other grains than before: a grain is
   /// followed by its id, and one that was not there starts anew.
-  void follow(std::span<const GrainFrame> frames);
+  void follow(std::span<const GrainFrame> frames) {
+    begin(frames);
+    follow(frames, 0, frames.size());
+  }
+  /// The same in parts, for frames that do not all arrive at once: first begin(), for which only
+  /// the ids need to be there, then every slot in one call of follow(frames, first, last).
+  void begin(std::span<const GrainFrame> frames);
+  void follow(std::span<const GrainFrame> frames, std::size_t first, std::size_t last);
 
   /// False when some frame's matrix is no rotation: then nothing may be concluded from what was
   /// known before, and nothing learnt now.

@@ -11,12 +11,13 @@
 
 namespace reckon {
 
-/// Calls evaluate(k, odometer) for every k whose odometer(k) has reached wake[k], on all threads.
+/// Calls evaluate(k, odometer) for every k with counts(k) whose odometer(k) has reached wake[k], on
+/// all threads.
 /// Who is awake in a stretch is known before the first is evaluated, so prefetch(k) can ask the
 /// memory a few ahead. What sleeps costs its odometer and one comparison.
-template <class Odometer, class Prefetch, class Evaluate>
-void visit_awake(std::span<const double> wake, Odometer&& odometer, Prefetch&& prefetch,
-                 Evaluate&& evaluate) {
+template <class Counts, class Odometer, class Prefetch, class Evaluate>
+void visit_awake(std::span<const double> wake, Counts&& counts, Odometer&& odometer,
+                 Prefetch&& prefetch, Evaluate&& evaluate) {
   constexpr std::size_t stretch = 128;
   constexpr std::size_t ahead = 3;
   struct Awake {
@@ -29,6 +30,7 @@ void visit_awake(std::span<const double> wake, Odometer&& odometer, Prefetch&& p
     std::array<Awake, stretch> awake;
     std::size_t count = 0;
     for (std::size_t k = first; k < last; ++k) {
+      if (!counts(k)) continue;
       const double reading = odometer(k);
       if (!(reading < wake[k])) awake[count++] = {k, reading};
     }

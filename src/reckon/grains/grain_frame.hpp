@@ -42,7 +42,8 @@ inline void prefetch_frame(const GrainFrame& frame) {
           density * shape.mass.volume};
 }
 
-/// Fills `frames[slot]` for every grain; `shapes[id]` are the library's shapes.
+/// Fills `frames[slot]` for every grain and leaves what lies behind; `shapes[id]` are the library's
+/// shapes.
 void update_frames(const Grains& grains, std::span<const ShapeView> shapes, double density,
                    std::vector<GrainFrame>& frames);
 

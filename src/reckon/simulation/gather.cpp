@@ -71,6 +71,7 @@ Vec3 foot_on_wall(const Wall& wall, const WallPose& pose, const Vec3& center) {
 
 std::vector<GrainState> Simulation::grain_states() {
   bring_up_to_date();
+  receive_ghosts();
   std::vector<GrainState> own;
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) own.push_back(grains_.state(slot));
   std::vector<GrainState> all = gather(distribution_.ranks(), own);

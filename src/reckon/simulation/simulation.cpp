@@ -66,8 +66,10 @@ void Simulation::step() {
   phase_times_.agreement += watch.lap();
 }
 
-/// Frames, ghosts and, when someone's motion used up the skin, lists: all for where grains are now.
+/// Frames and, when someone's motion used up the skin, lists: all for where grains are now. Ghosts
+/// may still be on their way.
 void Simulation::bring_up_to_date() {
+  receive_ghosts();
   Stopwatch watch;
   wall_contacts_.move_walls(step_, setup_.time_step);
   if (lists_are_stale_) {
@@ -81,18 +83,27 @@ void Simulation::bring_up_to_date() {
     require_shapes();
     update_inertias();
     update_frames(grains_, shapes_, setup_.density, frames_);
-    add_ghost_frames();
+    update_ghost_frames();
     phase_times_.frames += watch.lap();
     rebuild_lists();
     phase_times_.lists += watch.lap();
     return;
   }
   distribution_.start_update(grains_);
+  ghosts_are_coming_ = true;
+  phase_times_.border += watch.lap();
   update_frames(grains_, shapes_, setup_.density, frames_);
   phase_times_.frames += watch.lap();
+}
+
+/// Ends an update under way, if there is one.
+void Simulation::receive_ghosts() {
+  if (!ghosts_are_coming_) return;
+  Stopwatch watch;
   distribution_.finish_update();
+  ghosts_are_coming_ = false;
   phase_times_.border += watch.lap();
-  add_ghost_frames();
+  update_ghost_frames();
   phase_times_.frames += watch.lap();
 }
 
@@ -130,13 +141,15 @@ void Simulation::update_inertias() {
   }
 }
 
-void Simulation::add_ghost_frames() {
-  for (const BorderGrain& ghost : distribution_.ghosts()) {
-    const ShapeView& shape = shapes_[ghost.shape.get()];
-    frames_.push_back(frame_of(ghost.id, shape, ghost.state.position, ghost.state.orientation,
-                               ghost.state.velocity, ghost.state.angular_velocity_body,
-                               setup_.density));
-  }
+void Simulation::update_ghost_frames() {
+  const std::span<const BorderGrain> ghosts = distribution_.ghosts();
+  frames_.resize(grains_.size() + ghosts.size());
+  parallel_for(ghosts.size(), 64, [&](std::size_t n) {
+    const BorderGrain& ghost = ghosts[n];
+    frames_[grains_.size() + n] = frame_of(
+        ghost.id, shapes_[ghost.shape.get()], ghost.state.position, ghost.state.orientation,
+        ghost.state.velocity, ghost.state.angular_velocity_body, setup_.density);
+  });
 }
 
 void Simulation::rebuild_lists() {
@@ -173,10 +186,15 @@ void Simulation::count_work() {
 
 void Simulation::evaluate_contacts() {
   Stopwatch watch;
-  grain_contacts_.evaluate(frames_, setup_.time_step);
+  // Inner pairs and walls hide the time in which ghosts are on their way.
+  grain_contacts_.evaluate(frames_, setup_.time_step, grains_.size(), [&] {
+    phase_times_.grain_contacts += watch.lap();
+    wall_contacts_.evaluate(owned_frames(), grain_contacts_.meter(), setup_.time_step);
+    phase_times_.wall_contacts += watch.lap();
+    receive_ghosts();
+    watch = {};
+  });
   phase_times_.grain_contacts += watch.lap();
-  wall_contacts_.evaluate(owned_frames(), grain_contacts_.meter(), setup_.time_step);
-  phase_times_.wall_contacts += watch.lap();
 }
 
 /// The largest of all ranks for the lists about to be made [m].

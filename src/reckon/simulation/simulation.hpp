@@ -107,7 +107,8 @@ class Simulation {
   void let_grains_out();
   void require_shapes();
   void update_inertias();
-  void add_ghost_frames();
+  void update_ghost_frames();
+  void receive_ghosts();
   void rebuild_lists();
   void count_work();
   void evaluate_contacts();
@@ -133,6 +134,7 @@ class Simulation {
   double largest_radius_{0};  // of all shapes [m]
   Grains grains_;
   std::vector<GrainFrame> frames_;  // owned grains, then ghosts
+  bool ghosts_are_coming_{false};   // their states are on their way
   std::vector<Inertia> inertias_;   // of the owned grains
   std::vector<Load> contact_loads_;
   GrainContacts grain_contacts_;
