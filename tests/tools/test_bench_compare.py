@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""bench/compare passes equal results and names what got worse."""
+"""bench/compare.py passes equal results and names what got worse."""
 import json
 import pathlib
 import subprocess
@@ -8,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-COMPARE = pathlib.Path(__file__).resolve().parents[2] / "bench" / "compare"
+COMPARE = pathlib.Path(__file__).resolve().parents[2] / "bench" / "compare.py"
 
 
 def result(ratio, same_bits=True):

@@ -106,7 +106,7 @@ class WakeList {
   }
   /// Asks the memory for what the next look reads first.
   void prefetch() const {
-    constexpr std::size_t nodes_ahead = 2;
+    constexpr std::size_t nodes_ahead = 4;
     const auto ask = [](const void* from, std::size_t bytes) {
       for (std::size_t b = 0; b < bytes; b += 64) {
         __builtin_prefetch(static_cast<const std::byte*>(from) + b);
@@ -157,29 +157,37 @@ class WakeList {
     std::uninitialized_value_construct_n(reinterpret_cast<double*>(first + capacity), capacity);
   }
 
-  /// Touching nodes to the front; both groups, and the touches, in node order.
+  /// Touching nodes to the front; both groups, and the touches, in node order. Both groups were in
+  /// order before the look: only the nodes that change sides move, and what lies in between.
   void regroup(std::vector<Touch>& touches) {
-    struct Entry {
-      Node node;
-      double wake;
-    };
-    thread_local std::vector<Entry> entries;
     Head& head = *block_;
-    entries.clear();
-    for (std::uint32_t n = 0; n < head.count; ++n) entries.push_back({nodes()[n], wakes()[n]});
-    const auto touching = [](const Entry& e) { return e.wake == wake_always; };
-    std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
-      return touching(a) != touching(b) ? touching(a) : a.node.node < b.node.node;
-    });
-    head.touching = 0;
-    head.next_wake = wake_never;
-    for (std::uint32_t n = 0; n < head.count; ++n) {
-      set_node(n, entries[n].node, entries[n].wake);
-      if (touching(entries[n])) {
-        ++head.touching;
-      } else {
-        head.next_wake = std::min(head.next_wake, entries[n].wake);
+    Node* const node = nodes();
+    double* const wake = wakes();
+    /// Where the node belongs among those of [first, last).
+    const auto place = [&](const Node& moving, std::uint32_t first, std::uint32_t last) {
+      while (first < last && node[first].node < moving.node) ++first;
+      return first;
+    };
+    for (std::uint32_t n = 0; n < head.touching;) {
+      if (wake[n] == wake_always) {
+        ++n;
+        continue;
       }
+      const std::uint32_t to = place(node[n], head.touching, head.count);
+      std::rotate(node + n, node + n + 1, node + to);
+      std::rotate(wake + n, wake + n + 1, wake + to);
+      --head.touching;
+    }
+    head.next_wake = wake_never;
+    for (std::uint32_t n = head.touching; n < head.count; ++n) {
+      if (wake[n] != wake_always) {
+        head.next_wake = std::min(head.next_wake, wake[n]);
+        continue;
+      }
+      const std::uint32_t to = place(node[n], 0, head.touching);
+      std::rotate(node + to, node + n, node + n + 1);
+      std::rotate(wake + to, wake + n, wake + n + 1);
+      ++head.touching;
     }
     std::sort(touches.begin(), touches.end(),
               [](const Touch& a, const Touch& b) { return a.node < b.node; });

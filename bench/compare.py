@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares what `reckon bench --save` wrote with the tracked results, as ratios.
 
-    bench/compare NEW [OLD]        files or folders; OLD is bench/results
+    bench/compare.py NEW [OLD]        files or folders; OLD is bench/results
 
 One line per workload and machine that both have. The figure to watch is the ratio to the plain
 algorithm, which was run beside it in the same process: times alone differ from day to day on a
