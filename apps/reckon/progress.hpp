@@ -12,7 +12,8 @@ namespace reckon::app {
 /// for logs of batch systems.
 class ProgressDisplay {
  public:
-  /// `may_redraw`: whether standard output, if it is a terminal, is the user's own; mpirun's is not.
+  /// `may_redraw`: whether standard output, if it is a terminal, is the user's own; mpirun's is
+  /// not.
   ProgressDisplay(bool quiet, bool may_redraw);
 
   void show(const RunProgress& progress);

@@ -50,7 +50,7 @@ TEST(PerformanceReport, SumsAndRatiosOfTheRanks) {
   expect_has(json, "\"ranks\": 2,");
   expect_has(json, "\"machines\": 1,");
   expect_has(json, "\"steps\": 10,");
-  expect_has(json, "\"ns_per_grain_step\": 20000000,");     // 8 s / (10 * 40)
+  expect_has(json, "\"ns_per_grain_step\": 20000000,");  // 8 s / (10 * 40)
   expect_has(json, "\"ghosts_per_grain\": 0.2,");        // 80 / 400
   expect_has(json, "\"listed_pairs_per_grain\": 1.3,");  // (600 - 80) / 400: 80 are on both lists
   expect_has(json, "\"pairs_computed_twice_share\": 0.15384615384615385,");  // 80 / 520
