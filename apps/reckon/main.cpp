@@ -151,6 +151,10 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   using namespace reckon::app;
   restart_with_short_spin(argv);
   if (!started_by_launcher()) return run_command_line(argc, argv, {});
-  const reckon::ParallelSession session{argc, argv};
-  return run_command_line(argc, argv, session.world());
+  try {
+    const reckon::ParallelSession session{argc, argv};
+    return run_command_line(argc, argv, session.world());
+  } catch (const reckon::Error& error) {  // a build without MPI
+    return complain({}, error.what(), input_at_fault);
+  }
 }
