@@ -30,9 +30,9 @@ class MpiRun : public testing::RunSceneTest {
   void SetUp() override {
     RunSceneTest::SetUp();
     std::istringstream settings{RECKON_MPI_SETTINGS};
-    for (std::string name, value;
-         std::getline(settings, name, '=') && settings >> value >> std::ws;) {
-      ::setenv(name.c_str(), value.c_str(), 1);
+    for (std::string setting; settings >> setting;) {
+      const std::size_t equals = setting.find('=');
+      ::setenv(setting.substr(0, equals).c_str(), setting.substr(equals + 1).c_str(), 1);
     }
     write("scene.toml", scene_text(usual));
   }
