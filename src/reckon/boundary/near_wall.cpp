@@ -62,7 +62,7 @@ void find_wall_touches(const GrainFrame& grain, const Wall& wall, const WallPose
 }
 
 double NearWall::find_touches(const GrainFrame& grain, const Wall& wall, const WallPose& pose,
-                              double odometer, std::uint64_t step, std::vector<Touch>& touches,
+                              double odometer, std::vector<Touch>& touches,
                               ContactCounters& counters) {
   const double margin = rounding_margin(grain, wall, pose, odometer);
   const double from_center = distance(wall, pose, grain.position);
@@ -71,8 +71,7 @@ double NearWall::find_touches(const GrainFrame& grain, const Wall& wall, const W
   if (!list_.complete_at(odometer)) {
     ++counters.lists_checked;
     const Pose now{grain.position - pose.displacement, grain.rotation};
-    if (!still_complete(now, odometer, margin))
-      make(grain, wall, now, odometer, margin, step, counters);
+    if (!still_complete(now, odometer, margin)) make(grain, wall, now, odometer, margin, counters);
   }
   return std::visit(
       [&](const auto& surface) {
@@ -89,7 +88,7 @@ double NearWall::find_touches(const GrainFrame& grain, const Wall& wall, const W
 
 bool NearWall::still_complete(const Pose& pose, double odometer, double margin) {
   if (!list_.exists()) return false;
-  const Pose& made = list_.reference().pose;
+  const Pose& made = list_.reference();
   const double moved = norm(pose.offset - made.offset) +
                        list_.partner().radius * turn_distance(made.rotation, pose.rotation);
   if (!(moved < list_lifetime * list_.rest())) return false;
@@ -98,15 +97,9 @@ bool NearWall::still_complete(const Pose& pose, double odometer, double margin) 
 }
 
 void NearWall::make(const GrainFrame& grain, const Wall& wall, const Pose& pose, double odometer,
-                    double margin, std::uint64_t step, ContactCounters& counters) {
+                    double margin, ContactCounters& counters) {
   const ShapeView& shape = *grain.shape;
-  SkinTuner tuner;
-  if (list_.exists()) {
-    tuner = list_.reference().tuner;
-    tuner.ends(step);
-  }
-  const std::uint64_t searched_before = counters.searched_nodes;
-  const double skin = tuner.spacings() * node_spacing(shape);
+  const double skin = list_skin(shape);
   double rest = wake_never;
   struct Found {
     Node node;
@@ -139,9 +132,8 @@ void NearWall::make(const GrainFrame& grain, const Wall& wall, const Pose& pose,
       },
       wall.surface);
   ++counters.lists_made;
-  tuner.made(step, shape.clusters.size() + counters.searched_nodes - searched_before);
   counters.listed_nodes += found.size();
-  list_.restart({shape.bounding_radius}, {pose, tuner}, odometer, rest, found.size());
+  list_.restart({shape.bounding_radius}, pose, odometer, rest, found.size());
   for (std::size_t n = 0; n < found.size(); ++n) list_.set_node(n, found[n].node, found[n].wake);
 }
 

@@ -19,8 +19,7 @@ class NearWall {
  public:
   /// As NearList::find_touches; the same bits as find_wall_touches.
   double find_touches(const GrainFrame& grain, const Wall& wall, const WallPose& pose,
-                      double odometer, std::uint64_t step, std::vector<Touch>& touches,
-                      ContactCounters& counters);
+                      double odometer, std::vector<Touch>& touches, ContactCounters& counters);
 
   void prefetch() const { list_.prefetch(); }
   /// Memory held, besides the object.
@@ -34,10 +33,6 @@ class NearWall {
     Vec3 offset;  // the grain's centre from the wall's displacement [m]
     Mat3 rotation;
   };
-  struct Reference {
-    Pose pose;
-    SkinTuner tuner;
-  };
   struct Node {
     Vec3 place_body;  // [m]
     double area{0};   // [m^2]
@@ -46,9 +41,9 @@ class NearWall {
 
   [[nodiscard]] bool still_complete(const Pose& pose, double odometer, double margin);
   void make(const GrainFrame& grain, const Wall& wall, const Pose& pose, double odometer,
-            double margin, std::uint64_t step, ContactCounters& counters);
+            double margin, ContactCounters& counters);
 
-  WakeList<Grain, Reference, Node> list_;
+  WakeList<Grain, Pose, Node> list_;
 };
 
 /// The plain finder: every node of the grain, in order, against the wall.

@@ -79,8 +79,7 @@ double WallContacts::evaluate_candidate(std::size_t c, const GrainFrame& grain, 
   touches.clear();
   double wake = wake_always;
   if (odometer) {
-    wake = near_[c].find_touches(grain, walls_[w], poses_[w], *odometer, counters_.evaluations,
-                                 touches, scratch.counters);
+    wake = near_[c].find_touches(grain, walls_[w], poses_[w], *odometer, touches, scratch.counters);
   } else {
     find_wall_touches(grain, walls_[w], poses_[w], touches);
   }

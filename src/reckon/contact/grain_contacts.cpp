@@ -117,8 +117,8 @@ void GrainContacts::evaluate_listed(const Law& law, std::size_t p,
       return;
     }
     NearList& list = master_is_b ? near_[p].of_b : near_[p].of_a;
-    wake = std::min(wake, list.find_touches(master, slave, *odometer, counters_.evaluations,
-                                            filter_, touches, scratch.counters));
+    wake = std::min(
+        wake, list.find_touches(master, slave, *odometer, filter_, touches, scratch.counters));
   };
   new_springs_of_pair_[p] = store_.append([&](std::vector<NodeSpring>& arena) {
     forces_[p] = evaluate_pair(law, frames[pair.slot_a], frames[pair.slot_b], old_springs,

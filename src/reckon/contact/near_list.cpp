@@ -43,7 +43,7 @@ struct ClusterSpheres {
 }  // namespace
 
 double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave, double odometer,
-                              std::uint64_t step, PointFilter filter, std::vector<Touch>& touches,
+                              PointFilter filter, std::vector<Touch>& touches,
                               ContactCounters& counters) {
   const double both_radii = list_.exists()
                                 ? list_.partner().both_radii
@@ -58,7 +58,7 @@ double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave,
   if (!list_.complete_at(odometer)) {
     ++counters.lists_checked;
     if (!still_complete(at, master.shape->bounding_radius, odometer, margin)) {
-      make(*master.shape, *slave.shape, at, odometer, margin, step, filter, counters);
+      make(*master.shape, *slave.shape, at, odometer, margin, filter, counters);
     }
   }
   const Slave& other = list_.partner();
@@ -92,7 +92,7 @@ double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave,
 bool NearList::still_complete(const Placement& at, double master_radius, double odometer,
                               double margin) {
   if (!list_.exists()) return false;
-  const Placement& made = list_.reference().at;
+  const Placement& made = list_.reference();
   const double moved =
       norm(at.shift - made.shift) + master_radius * turn_distance(made.turn, at.turn);
   if (!(moved < list_lifetime * list_.rest())) return false;
@@ -101,8 +101,7 @@ bool NearList::still_complete(const Placement& at, double master_radius, double 
 }
 
 void NearList::make(const ShapeView& master, const ShapeView& slave, const Placement& at,
-                    double odometer, double margin, std::uint64_t step, PointFilter filter,
-                    ContactCounters& counters) {
+                    double odometer, double margin, PointFilter filter, ContactCounters& counters) {
   struct Found {
     NodeIndex node;
     double clearance;
@@ -114,13 +113,7 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Place
   found.clear();
   clusters.copy(master.clusters);
   bounds.resize(master.clusters.size());
-  SkinTuner tuner;
-  if (list_.exists()) {
-    tuner = list_.reference().tuner;
-    tuner.ends(step);
-  }
-  const std::uint64_t searched_before = counters.searched_nodes;
-  const double skin = tuner.spacings() * node_spacing(master);
+  const double skin = list_skin(master);
   const FilterTarget target{slave, at, master.bounding_radius, skin};
   const auto metres = [&](float bound) { return target.in_metres(bound) - margin; };
   double rest = wake_never;
@@ -159,14 +152,13 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Place
   if (!bounds.empty())
     rest = std::min(rest, metres(*std::min_element(bounds.begin(), bounds.end())));
   ++counters.lists_made;
-  tuner.made(step, master.clusters.size() + counters.searched_nodes - searched_before);
   counters.listed_nodes += found.size();
 
   list_.restart({.both_radii = master.bounding_radius + slave.bounding_radius,
                  .radius_squared = slave.bounding_radius * slave.bounding_radius,
                  .slope = slave.lipschitz > 0 ? 1 / slave.lipschitz : 0,
                  .grid = slave.level_set},
-                {at, tuner}, odometer, rest, found.size());
+                at, odometer, rest, found.size());
   for (std::size_t n = 0; n < found.size(); ++n) {
     const NodeIndex node = found[n].node;
     list_.set_node(n,

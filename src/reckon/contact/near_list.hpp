@@ -22,10 +22,9 @@ class NearList {
  public:
   /// Appends the touching nodes in node order: the same bits as the plain finder's. Returns the
   /// odometer reading before which no node can touch, or minus infinity if a node touches now.
-  /// `step` counts calls of evaluate(); any `filter` will do.
+  /// Any `filter` will do.
   double find_touches(const GrainFrame& master, const GrainFrame& slave, double odometer,
-                      std::uint64_t step, PointFilter filter, std::vector<Touch>& touches,
-                      ContactCounters& counters);
+                      PointFilter filter, std::vector<Touch>& touches, ContactCounters& counters);
 
   void prefetch() const { list_.prefetch(); }
   /// Memory held, besides the object.
@@ -48,17 +47,12 @@ class NearList {
     NodeIndex node{0};
   };
 
-  struct Reference {
-    Placement at;
-    SkinTuner tuner;
-  };
-
   [[nodiscard]] bool still_complete(const Placement& at, double master_radius, double odometer,
                                     double margin);
   void make(const ShapeView& master, const ShapeView& slave, const Placement& at, double odometer,
-            double margin, std::uint64_t step, PointFilter filter, ContactCounters& counters);
+            double margin, PointFilter filter, ContactCounters& counters);
 
-  WakeList<Slave, Reference, Node> list_;
+  WakeList<Slave, Placement, Node> list_;
 };
 
 }  // namespace reckon

@@ -106,7 +106,7 @@ class WakeList {
   }
   /// Asks the memory for what the next look reads first.
   void prefetch() const {
-    constexpr std::size_t nodes_ahead = 4;
+    constexpr std::size_t nodes_ahead = 2;
     const auto ask = [](const void* from, std::size_t bytes) {
       for (std::size_t b = 0; b < bytes; b += 64) {
         __builtin_prefetch(static_cast<const std::byte*>(from) + b);

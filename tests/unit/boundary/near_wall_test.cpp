@@ -54,8 +54,7 @@ TEST(NearWall, MissesNoTouchWhateverTheMotion) {
         continue;
       }
       std::vector<Touch> found;
-      wake = list.find_touches(frames[0], wall, pose, odometer, static_cast<std::uint64_t>(step),
-                               found, counters);
+      wake = list.find_touches(frames[0], wall, pose, odometer, found, counters);
       ASSERT_EQ(found.size(), expected.size());
       for (std::size_t n = 0; n < found.size(); ++n) {
         ASSERT_EQ(found[n].node, expected[n].node);

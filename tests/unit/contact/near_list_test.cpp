@@ -81,8 +81,7 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
         continue;
       }
       std::vector<Touch> found;
-      wake = list.find_touches(frames[0], frames[1], odometer, static_cast<std::uint64_t>(step),
-                               filter, found, counters);
+      wake = list.find_touches(frames[0], frames[1], odometer, filter, found, counters);
       expect_same_touches(found, expected);
       if (HasFatalFailure()) FAIL() << "walk " << walk << " step " << step;
       touched += expected.empty() ? 0U : 1U;
@@ -111,8 +110,8 @@ TEST(NearList, LooksSeldomAtWhatApproachesSlowly) {
     const double odometer = meter.travelled()[0] + meter.travelled()[1];
     if (odometer < wake) continue;
     ++looks;
-    wake = list.find_touches(frames[0], frames[1], odometer, counters.evaluations,
-                             point_filter(SimdLevel::automatic), touches, counters);
+    wake = list.find_touches(frames[0], frames[1], odometer, point_filter(SimdLevel::automatic),
+                             touches, counters);
   }
   EXPECT_LT(frames[1].position.x, 2.01);
   EXPECT_LT(looks, 100);
