@@ -152,7 +152,8 @@ class Measuring {
   }
 
   void run_whole() {
-    const auto plain = options_.plain ? start(ContactEngine::plain, work_.state) : nullptr;
+    std::unique_ptr<Simulation> plain;
+    if (options_.plain) plain = start(ContactEngine::plain, work_.state);
     for (int stretch = 0; stretch < work_.stretches; ++stretch) {
       const double near_seconds = near_meter_.run(*near_, work_.steps);
       if (plain) {

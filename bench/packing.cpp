@@ -243,7 +243,9 @@ void repeat(Packing& packing, int copies, std::size_t count) {
   const std::vector<GrainState> block = packing.state.grains;
   packing.state.grains.clear();
   for (int n = 0; n < copies * copies * copies; ++n) {
-    const Vec3 place{double(n % copies), double(n / copies % copies), double(n / copies / copies)};
+    const int row = n / copies;
+    const int layer = row / copies;
+    const Vec3 place{double(n % copies), double(row % copies), double(layer)};
     for (GrainState grain : block) {
       if (packing.state.grains.size() == count) break;
       grain.position += hadamard(place, size);
