@@ -28,9 +28,9 @@ using FloatVector = hn::Vec<Floats>;
 using IntVector = hn::Vec<Ints>;
 
 /// One array per coordinate, of points or of corners.
-template <std::size_t Count>
+template <std::size_t count>
 struct alignas(64) Lanes {
-  std::array<std::array<float, block>, Count> of;
+  std::array<std::array<float, block>, count> of;
 };
 
 HWY_INLINE FloatVector between(FloatVector low, FloatVector high, FloatVector part) {
