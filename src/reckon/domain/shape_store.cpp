@@ -101,6 +101,7 @@ void ShapeStore::State::load(const std::vector<std::size_t>& wanted) {
   SharedMemory block{machine, counter.used()};
   Parts parts{block.bytes()};
   std::vector<ShapeParts> places;
+  places.reserve(wanted.size());
   for (const std::size_t s : wanted) places.push_back(take_parts(parts, outlines[s]));
   std::string problem;
   try {
