@@ -3,12 +3,12 @@
 #include "measure.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <ctime>
 #include <memory>
 
+#include "reckon/core/peak_memory.hpp"
 #include "reckon/core/stopwatch.hpp"
 #include "reckon/parallel/threads.hpp"
 
@@ -66,15 +66,6 @@ class Meter {
   std::uint64_t steps_{0};
   double seconds_{0};
 };
-
-bool equal_bits(const SimulationState& a, const SimulationState& b) {
-  const auto same_springs = [](const auto& s, const auto& t) { return s.springs == t.springs; };
-  return a.step == b.step && a.grains == b.grains &&
-         std::equal(a.pair_springs.begin(), a.pair_springs.end(), b.pair_springs.begin(),
-                    b.pair_springs.end(), same_springs) &&
-         std::equal(a.wall_springs.begin(), a.wall_springs.end(), b.wall_springs.begin(),
-                    b.wall_springs.end(), same_springs);
-}
 
 class Measuring {
  public:
@@ -141,7 +132,7 @@ class Measuring {
     near_meter_.run(*near_, work_.plain_steps + 1);
     result_.ratios.push_back(seconds / static_cast<double>(work_.plain_steps) /
                              near_seconds_per_step);
-    result_.same_bits = result_.same_bits && equal_bits(near_->state(), plain->state());
+    result_.same_bits = result_.same_bits && near_->state() == plain->state();
   }
 
   void compare_with_one_thread() {
@@ -158,7 +149,7 @@ class Measuring {
       const double near_seconds = near_meter_.run(*near_, work_.steps);
       if (plain) {
         result_.ratios.push_back(plain_meter_.run(*plain, work_.steps) / near_seconds);
-        result_.same_bits = result_.same_bits && equal_bits(near_->state(), plain->state());
+        result_.same_bits = result_.same_bits && near_->state() == plain->state();
       }
       const double unbalanced = near_->measure().unbalanced_ratio;
       if (stretch % 10 == 9) {
@@ -175,9 +166,7 @@ class Measuring {
     result_.contact_bytes_per_grain =
         per_grain(near_->grain_contacts().bytes() + near_->wall_contacts().bytes());
     result_.shape_bytes_per_grain = per_grain(work_.setup.shapes.resident_bytes());
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    result_.peak_resident_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
+    result_.peak_resident_bytes = static_cast<double>(peak_memory());
   }
 
   const Workload& work_;

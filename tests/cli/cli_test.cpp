@@ -2,53 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <fstream>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "cli/process.hpp"
-#include "unit/io/run_scene_fixture.hpp"
+#include "cli/program_fixture.hpp"
 
 namespace reckon {
 namespace {
 
-struct Outcome {
-  int code;
-  std::string out;
-  std::string err;
-};
+using testing::Outcome;
 
-class CliTest : public testing::RunSceneTest {
+class CliTest : public testing::ProgramTest {
  protected:
-  void SetUp() override {
-    RunSceneTest::SetUp();
-    write("scene.toml", scene_text(usual));
-  }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream{root_ / name} << text;
-  }
   [[nodiscard]] testing::Process start(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), RECKON_PROGRAM);
-    return testing::Process{std::move(arguments), root_};
+    return start_line(std::move(arguments));
   }
   [[nodiscard]] Outcome reckon(std::vector<std::string> arguments) const {
-    testing::Process process = start(std::move(arguments));
-    const int code = process.wait();
-    return {code, process.out(), process.err()};
-  }
-  /// Waits until a run has written rows to its history.
-  void wait_for_rows(const std::string& run, std::size_t rows) const {
-    for (int tries = 0; tries < 3000; ++tries) {
-      std::ifstream file{root_ / run / "history.csv"};
-      std::string line;
-      std::size_t lines = 0;
-      while (std::getline(file, line)) ++lines;
-      if (lines > rows) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds{10});
-    }
-    FAIL() << "the run does not get under way";
+    return outcome_of(start(std::move(arguments)));
   }
   void expect_identical(const std::string& a, const std::string& b) const {
     const Outcome outcome = reckon({"diff", a, b});

@@ -4,62 +4,37 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "cli/process.hpp"
+#include "cli/program_fixture.hpp"
 #include "reckon/io/history.hpp"
-#include "unit/io/run_scene_fixture.hpp"
 
 namespace reckon {
 namespace {
 
-struct Outcome {
-  int code;
-  std::string out;
-  std::string err;
-};
+using testing::Outcome;
 
-class MpiRun : public testing::RunSceneTest {
+class MpiRun : public testing::ProgramTest {
  protected:
   void SetUp() override {
-    RunSceneTest::SetUp();
+    ProgramTest::SetUp();
     std::istringstream settings{RECKON_MPI_SETTINGS};
     for (std::string setting; settings >> setting;) {
       const std::size_t equals = setting.find('=');
       ::setenv(setting.substr(0, equals).c_str(), setting.substr(equals + 1).c_str(), 1);
     }
-    write("scene.toml", scene_text(usual));
-  }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream{root_ / name} << text;
   }
   [[nodiscard]] testing::Process start(int ranks, std::vector<std::string> arguments) const {
     std::vector<std::string> line{RECKON_MPIEXEC, RECKON_MPIEXEC_COUNT, std::to_string(ranks),
                                   RECKON_PROGRAM};
     line.insert(line.end(), arguments.begin(), arguments.end());
-    return testing::Process{std::move(line), root_};
+    return start_line(std::move(line));
   }
   [[nodiscard]] Outcome reckon(int ranks, std::vector<std::string> arguments) const {
-    testing::Process process = start(ranks, std::move(arguments));
-    const int code = process.wait();
-    return {code, process.out(), process.err()};
-  }
-  void wait_for_rows(const std::string& run, std::size_t rows) const {
-    for (int tries = 0; tries < 3000; ++tries) {
-      std::ifstream file{root_ / run / "history.csv"};
-      std::string line;
-      std::size_t lines = 0;
-      while (std::getline(file, line)) ++lines;
-      if (lines > rows) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds{10});
-    }
-    FAIL() << "the run does not get under way";
+    return outcome_of(start(ranks, std::move(arguments)));
   }
   static std::size_t count(const std::string& text, const std::string& part) {
     std::size_t found = 0;

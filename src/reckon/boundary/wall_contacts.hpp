@@ -34,6 +34,8 @@ struct WallSprings {
   GrainId grain;
   WallId wall;
   std::vector<NodeSpring> springs;
+
+  friend bool operator==(const WallSprings&, const WallSprings&) = default;
 };
 
 /// Contacts between grains and walls. Used like GrainContacts; loads are to be added after those of

@@ -36,6 +36,8 @@ struct PairSprings {
   GrainId id_a;
   GrainId id_b;
   std::vector<NodeSpring> springs;  ///< a's nodes first, each in node order
+
+  friend bool operator==(const PairSprings&, const PairSprings&) = default;
 };
 
 /// Contacts between grains: the list of pairs, their springs and their forces.

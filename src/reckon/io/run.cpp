@@ -49,8 +49,7 @@ class Session {
     progress_.step = progress_.first_step;
     progress_.steps = steps;
     progress_.time = simulation_.time();
-    last_checkpoint_ = progress_.first_step;
-    has_checkpoint_ = resumed;
+    if (resumed) last_checkpoint_ = progress_.first_step;
   }
 
   RunReport run() {
@@ -178,7 +177,6 @@ class Session {
     SimulationState state = simulation_.state();
     on_root(ranks_, [&] { files_->write_checkpoint(std::move(state)); });
     last_checkpoint_ = progress_.step;
-    has_checkpoint_ = true;
     last_checkpoint_time_ = Clock::now();
     save_record("running");
   }
@@ -190,7 +188,7 @@ class Session {
       if (ranks_.any(files_ != nullptr && !files_->history_has(progress_.step))) append_history();
       if (ranks_.any(files_ != nullptr && !files_->fields_have(progress_.step))) write_fields();
     }
-    if (end != RunEnd::nothing_to_do && !(has_checkpoint_ && last_checkpoint_ == progress_.step)) {
+    if (end != RunEnd::nothing_to_do && last_checkpoint_ != progress_.step) {
       save_checkpoint();
     }
     on_root(ranks_, [&] { files_->finish_writing(); });
@@ -233,8 +231,7 @@ class Session {
   RunProgress progress_;
   Measurement last_;
   bool measured_{false};
-  std::uint64_t last_checkpoint_{0};
-  bool has_checkpoint_{false};
+  std::optional<std::uint64_t> last_checkpoint_;  // its step
   Clock::time_point start_{Clock::now()};
   Clock::time_point last_checkpoint_time_{start_};
   Clock::time_point last_log_time_{start_};

@@ -51,7 +51,6 @@ class RunFiles {
   // As of the last finish_writing().
   [[nodiscard]] bool history_has(std::uint64_t step) const { return outputs_->history_has(step); }
   [[nodiscard]] bool fields_have(std::uint64_t step) const { return outputs_->fields_have(step); }
-  [[nodiscard]] std::optional<std::uint64_t> latest_checkpoint() const { return latest_; }
   [[nodiscard]] std::filesystem::path checkpoint_file() const;
   [[nodiscard]] const std::string& performance_text() const { return performance_text_; }
   [[nodiscard]] double energy_at_start() const { return checkpoint_.energy_at_start; }

@@ -49,6 +49,7 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
   grain_contacts_.adopt(state.pair_springs);
   wall_contacts_.adopt(state.wall_springs);
   departed_ = state.departed;
+  costs_.assign(grains_.size(), 1.0);
 }
 
 void Simulation::step() {
@@ -74,8 +75,7 @@ void Simulation::bring_up_to_date() {
   wall_contacts_.move_walls(step_, setup_.time_step);
   if (lists_are_stale_) {
     let_grains_out();
-    distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_,
-                               grain_costs(grain_contacts_.pairs(), grains_.size()),
+    distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_, costs_,
                                2 * (largest_radius_ + largest_budget()));
     phase_times_.migration += watch.lap();
     distribution_.list_ghosts(grains_);
@@ -112,15 +112,20 @@ void Simulation::let_grains_out() {
   if (setup_.outflows.empty()) return;
   const auto before = static_cast<std::int64_t>(departed_.size());
   Grains staying;
+  std::vector<double> costs;
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
     if (is_out(slot)) {
       departed_.push_back({step_, grains_.state(slot)});
     } else {
       staying.push_back(grains_.state(slot));
+      costs.push_back(costs_[slot]);
     }
   }
   std::int64_t left = static_cast<std::int64_t>(departed_.size()) - before;
-  if (left > 0) grains_ = std::move(staying);
+  if (left > 0) {
+    grains_ = std::move(staying);
+    costs_ = std::move(costs);
+  }
   distribution_.ranks().sum({&left, 1});
   distribution_.expect_fewer(static_cast<std::size_t>(left));
 }
@@ -171,8 +176,8 @@ void Simulation::rebuild_lists() {
   shared_pairs_ = static_cast<std::uint64_t>(std::count_if(
       pairs.begin(), pairs.end(),
       [owned](const Pair& pair) { return pair.slot_a >= owned || pair.slot_b >= owned; }));
-  const std::vector<double> costs = grain_costs(grain_contacts_.pairs(), grains_.size());
-  cost_ = std::accumulate(costs.begin(), costs.end(), 0.0);
+  costs_ = grain_costs(pairs, grains_.size());
+  cost_ = std::accumulate(costs_.begin(), costs_.end(), 0.0);
 }
 
 void Simulation::count_work() {

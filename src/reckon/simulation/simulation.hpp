@@ -40,6 +40,8 @@ struct SimulationSetup {
 struct DepartedGrain {
   std::uint64_t step{0};
   GrainState grain;
+
+  friend bool operator==(const DepartedGrain&, const DepartedGrain&) = default;
 };
 
 /// What changes: all that a checkpoint must hold to go on to the same bits.
@@ -49,6 +51,8 @@ struct SimulationState {
   std::vector<PairSprings> pair_springs;  ///< sorted by ids
   std::vector<WallSprings> wall_springs;  ///< sorted by grain, then wall
   std::vector<DepartedGrain> departed;    ///< sorted by id
+
+  friend bool operator==(const SimulationState&, const SimulationState&) = default;
 };
 
 /// One pair of touching grains, or a grain and a wall, as output shows it.
@@ -61,6 +65,8 @@ struct ContactRecord {
   Vec3 force;         ///< on `grain` [N]
   double deepest{0};  ///< largest penetration of a node [m]
   std::uint32_t touching{0};  ///< nodes
+
+  friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
 };
 
 /// The level-set discrete element method. `step()` is the paper's algorithm on one screen.
@@ -155,7 +161,8 @@ class Simulation {
   PhaseTimes phase_times_;
   RankPerformance done_;           // the counters of it that step() keeps
   std::uint64_t shared_pairs_{0};  // listed pairs with a ghost
-  double cost_{0};                 // of the owned grains
+  std::vector<double> costs_;      // of the owned grains, as of the last lists
+  double cost_{0};                 // their sum
 };
 
 }  // namespace reckon
