@@ -129,7 +129,7 @@ void WallContacts::evaluate(std::span<const GrainFrame> frames, const MotionMete
           near_[c].prefetch();
           prefetch_frame(frames[candidates_[c].slot]);
         },
-        evaluate_one);
+        evaluate_one, [] {});
   } else {
     parallel_for(candidates_.size(), 32, [&](std::size_t c) { evaluate_one(c, {}); });
   }

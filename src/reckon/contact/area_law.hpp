@@ -34,26 +34,22 @@ struct AreaLaw {
                                      const Vec3& spring) const {
     const double steepness = norm(touch.gradient_world);
     const double elastic_push = -normal_stiffness * touch.area * touch.phi * steepness;
-    double push = elastic_push;
-    double dashpot_power = 0;
-    if (dashpot_factor > 0 || viscosity > 0) {
-      const double approach = dot(normal, velocity);
-      const double pair_dashpot = dashpot_factor * std::sqrt(context.effective_mass *
-                                                             normal_stiffness * context.total_area);
-      const double gamma =
-          pair_dashpot * (-touch.area * touch.phi / context.total_volume) + viscosity * touch.area;
-      push = std::max(elastic_push - gamma * approach, 0.0);
-      dashpot_power = (elastic_push - push) * approach;
-    }
+    const double approach = dot(normal, velocity);
+    const double pair_dashpot =
+        dashpot_factor * std::sqrt(context.effective_mass * normal_stiffness * context.total_area);
+    const double share =
+        context.total_volume > 0 ? -touch.area * touch.phi / context.total_volume : 0;
+    const double gamma = pair_dashpot * share + viscosity * touch.area;
+    const double push = std::max(elastic_push - gamma * approach, 0.0);
     const double stiffness = shear_stiffness * touch.area;
-    const CoulombSlider shear =
+    CoulombSlider shear =
         slide(spring, velocity, normal, context.time_step, stiffness, context.friction * push);
     return {.force = push * normal + shear.force,
             .shear_force = shear.force,
             .elastic = 0.5 * normal_stiffness * touch.area * touch.phi * touch.phi +
                        stored_shear_energy(shear.force, touch.area),
             .friction = shear.lost,
-            .dashpot = dashpot_power * context.time_step};
+            .dashpot = (elastic_push - push) * approach * context.time_step};
   }
 
   [[nodiscard]] double pair_scale(const PairContext& /*context*/) const { return 1.0; }

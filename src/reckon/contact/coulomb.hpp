@@ -20,11 +20,12 @@ struct CoulombSlider {
   const Vec3 displacement = (velocity - dot(velocity, normal) * normal) * time_step;
   const Vec3 trial = spring - stiffness * displacement;
   const double trial_squared = squared_norm(trial);
-  if (trial_squared <= limit * limit) return {trial, 0};
-  const Vec3 capped = (limit / std::sqrt(trial_squared)) * trial;
+  // Without a branch, so that loops over nodes can become vectors.
+  const bool sticks = trial_squared <= limit * limit;
+  Vec3 capped = (sticks ? 1.0 : limit / std::sqrt(trial_squared)) * trial;
   // Lost: the slip times the mean of the forces before and after, which is what the step took in
   // by the trapezoidal rule less what the spring now holds.
-  return {capped, dot(spring + capped, trial - capped) / (2 * stiffness)};
+  return {capped, sticks ? 0.0 : dot(spring + capped, trial - capped) / (2 * stiffness)};
 }
 
 }  // namespace reckon

@@ -30,6 +30,41 @@ void add_directed(PairForce& pair, const DirectedForce& directed, bool master_is
   pair.touching += directed.touching;
 }
 
+/// Calls body(master_is_b, weight) for each way in which a pair is looked at.
+template <class Body>
+void for_each_master(MasterRule rule, const GrainFrame& a, const GrainFrame& b, Body&& body) {
+  switch (rule) {
+    case MasterRule::lower_id:
+      body(false, 1.0);
+      break;
+    case MasterRule::smaller:
+      body(b.shape->bounding_radius < a.shape->bounding_radius, 1.0);
+      break;
+    case MasterRule::both:
+      body(false, 0.5);
+      body(true, 0.5);
+      break;
+  }
+}
+
+/// A pair's springs by master: a's come first.
+class SidedSprings {
+ public:
+  explicit SidedSprings(std::span<const NodeSpring> springs) : springs_{springs} {
+    const auto is_of_b = [](const NodeSpring& spring) { return spring.master_is_b; };
+    const auto first_of_b = std::find_if(springs.begin(), springs.end(), is_of_b);
+    of_a_ = static_cast<std::size_t>(first_of_b - springs.begin());
+  }
+  [[nodiscard]] bool empty() const { return springs_.empty(); }
+  [[nodiscard]] std::span<const NodeSpring> of(bool master_is_b) const {
+    return master_is_b ? springs_.subspan(of_a_) : springs_.first(of_a_);
+  }
+
+ private:
+  std::span<const NodeSpring> springs_;
+  std::size_t of_a_;
+};
+
 bool ids_less(GrainId a1, GrainId b1, GrainId a2, GrainId b2) {
   return a1 != a2 ? a1 < a2 : b1 < b2;
 }
@@ -64,74 +99,100 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
   pairs_of_grain_ = index_pairs(pairs_, slot_count);
 }
 
-template <ContactLaw Law, class Find>
-PairForce GrainContacts::evaluate_pair(const Law& law, const GrainFrame& a, const GrainFrame& b,
-                                       std::span<const NodeSpring> old_springs, double time_step,
-                                       Find&& find, std::vector<Touch>& touches,
-                                       std::vector<NodeSpring>& new_springs) const {
-  PairForce pair;
-  const PairContext context{.effective_mass = a.mass * b.mass / (a.mass + b.mass),
-                            .friction = settings_.friction,
-                            .time_step = time_step};
-  const auto first_of_b = std::find_if(old_springs.begin(), old_springs.end(),
-                                       [](const NodeSpring& s) { return s.master_is_b; });
-  const auto a_count = static_cast<std::size_t>(first_of_b - old_springs.begin());
-  const auto directed = [&](bool master_is_b, double weight) {
-    const GrainFrame& master = master_is_b ? b : a;
-    const GrainFrame& slave = master_is_b ? a : b;
-    touches.clear();
-    find(master, slave, master_is_b, touches);
-    const auto old = master_is_b ? old_springs.subspan(a_count) : old_springs.first(a_count);
-    if (touches.empty() && old.empty()) return;
-    add_directed(pair,
-                 respond(law, context, master.position, motion_of(master), motion_of(slave),
-                         touches, old, *master.shape, master_is_b, weight, new_springs),
-                 master_is_b);
-  };
-  switch (settings_.master) {
-    case MasterRule::lower_id:
-      directed(false, 1);
-      break;
-    case MasterRule::smaller:
-      directed(b.shape->bounding_radius < a.shape->bounding_radius, 1);
-      break;
-    case MasterRule::both:
-      directed(false, 0.5);
-      directed(true, 0.5);
-      break;
-  }
-  return pair;
+PairContext GrainContacts::context_of(const GrainFrame& a, const GrainFrame& b,
+                                      double time_step) const {
+  return {.effective_mass = a.mass * b.mass / (a.mass + b.mass),
+          .friction = settings_.friction,
+          .time_step = time_step};
 }
 
-template <ContactLaw Law>
-void GrainContacts::evaluate_listed(const Law& law, std::size_t p,
-                                    std::span<const GrainFrame> frames, double time_step,
-                                    std::optional<double> odometer, Scratch& scratch) {
-  const Pair& pair = pairs_[p];
-  const auto old_springs = store_.read(springs_of_pair_[p]);
-  double wake = odometer ? wake_never : wake_always;
-  const auto find = [&](const GrainFrame& master, const GrainFrame& slave, bool master_is_b,
-                        std::vector<Touch>& touches) {
-    if (!odometer) {
-      find_touches(master, slave, touches);
-      return;
-    }
-    NearList& list = master_is_b ? near_[p].of_b : near_[p].of_a;
-    wake = std::min(
-        wake, list.find_touches(master, slave, *odometer, filter_, touches, scratch.counters));
-  };
-  new_springs_of_pair_[p] = store_.append([&](std::vector<NodeSpring>& arena) {
-    forces_[p] = evaluate_pair(law, frames[pair.slot_a], frames[pair.slot_b], old_springs,
-                               time_step, find, scratch.touches, arena);
-  });
+/// What the force of a pair means for the next step, once it is known. `wake`: by its near lists.
+void GrainContacts::settle(std::size_t p, double wake, bool had_springs,
+                           ContactCounters& counters) {
   // A pair that lets go of springs is looked at once more, so that both buffers are empty when it
   // falls asleep.
-  wake_[p] = old_springs.empty() ? wake : wake_always;
+  wake_[p] = had_springs ? wake_always : wake;
   const PairForce& force = forces_[p];
   acts_[p] = force.touching > 0 || force.friction != 0 || force.dashpot != 0 ? 1 : 0;
-  ++scratch.counters.awake;
-  scratch.counters.touching_nodes += force.touching;
-  if (force.touching > 0) ++scratch.counters.touching_pairs;
+  ++counters.awake;
+  counters.touching_nodes += force.touching;
+  if (force.touching > 0) ++counters.touching_pairs;
+}
+
+/// Tests every node and answers one after the other: the oracle.
+template <ContactLaw Law>
+void GrainContacts::evaluate_plainly(const Law& law, std::size_t p,
+                                     std::span<const GrainFrame> frames, double time_step,
+                                     Scratch& scratch) {
+  const GrainFrame& a = frames[pairs_[p].slot_a];
+  const GrainFrame& b = frames[pairs_[p].slot_b];
+  const SidedSprings old{store_.read(springs_of_pair_[p])};
+  const PairContext context = context_of(a, b, time_step);
+  PairForce pair;
+  new_springs_of_pair_[p] = store_.append([&](std::vector<NodeSpring>& arena) {
+    for_each_master(settings_.master, a, b, [&](bool master_is_b, double weight) {
+      const GrainFrame& master = master_is_b ? b : a;
+      const GrainFrame& slave = master_is_b ? a : b;
+      scratch.touches.clear();
+      find_touches(master, slave, scratch.touches);
+      add_directed(
+          pair,
+          respond(law, context, master.position, motion_of(master), motion_of(slave),
+                  scratch.touches, old.of(master_is_b), *master.shape, master_is_b, weight, arena),
+          master_is_b);
+    });
+  });
+  forces_[p] = pair;
+  settle(p, wake_always, !old.empty(), scratch.counters);
+}
+
+/// Finds the touching nodes of a pair by its near lists and lets them wait for their law.
+void GrainContacts::find_nodes(std::size_t p, std::span<const GrainFrame> frames, double time_step,
+                               double odometer, Scratch& scratch) {
+  const GrainFrame& a = frames[pairs_[p].slot_a];
+  const GrainFrame& b = frames[pairs_[p].slot_b];
+  const SidedSprings old{store_.read(springs_of_pair_[p])};
+  const PairContext context = context_of(a, b, time_step);
+  double wake = wake_never;
+  for_each_master(settings_.master, a, b, [&](bool master_is_b, double) {
+    const GrainFrame& master = master_is_b ? b : a;
+    const GrainFrame& slave = master_is_b ? a : b;
+    NearList& list = master_is_b ? near_[p].of_b : near_[p].of_a;
+    scratch.touches.clear();
+    wake = std::min(wake, list.find_touches(master, slave, odometer, filter_, scratch.touches,
+                                            scratch.counters));
+    scratch.batch.add(context, master.position, motion_of(master), motion_of(slave),
+                      scratch.touches, old.of(master_is_b));
+  });
+  scratch.waiting.push_back({p, wake});
+}
+
+/// The forces of the pairs that wait.
+template <ContactLaw Law>
+void GrainContacts::answer_waiting(const Law& law, std::span<const GrainFrame> frames,
+                                   double time_step, Scratch& scratch) {
+  scratch.batch.respond(settings_.law, settings_.friction, time_step, lanes_);
+  std::size_t member = 0;
+  for (const Waiting& waiting : scratch.waiting) {
+    const std::size_t p = waiting.pair;
+    const GrainFrame& a = frames[pairs_[p].slot_a];
+    const GrainFrame& b = frames[pairs_[p].slot_b];
+    const SidedSprings old{store_.read(springs_of_pair_[p])};
+    PairForce pair;
+    new_springs_of_pair_[p] = store_.append([&](std::vector<NodeSpring>& arena) {
+      for_each_master(settings_.master, a, b, [&](bool master_is_b, double weight) {
+        const ShapeView& shape = master_is_b ? *b.shape : *a.shape;
+        add_directed(pair,
+                     scratch.batch.sum(member++, law, old.of(master_is_b), shape, master_is_b,
+                                       weight, arena),
+                     master_is_b);
+      });
+    });
+    forces_[p] = pair;
+    settle(p, waiting.wake, !old.empty(), scratch.counters);
+  }
+  scratch.waiting.clear();
+  scratch.batch.clear();
 }
 
 template <ContactLaw Law>
@@ -142,7 +203,7 @@ void GrainContacts::evaluate_pairs(const Law& law, Part part, std::span<const Gr
   };
   if (!use_near_lists) {
     parallel_for(pairs_.size(), 32, [&](std::size_t p) {
-      if (part.has(pairs_[p])) evaluate_listed(law, p, frames, time_step, {}, scratch());
+      if (part.has(pairs_[p])) evaluate_plainly(law, p, frames, time_step, scratch());
     });
     return;
   }
@@ -152,8 +213,9 @@ void GrainContacts::evaluate_pairs(const Law& law, Part part, std::span<const Gr
       [&](std::size_t p) { return travelled[pairs_[p].slot_a] + travelled[pairs_[p].slot_b]; },
       [&](std::size_t p) { prefetch(p, frames); },
       [&](std::size_t p, double odometer) {
-        evaluate_listed(law, p, frames, time_step, odometer, scratch());
-      });
+        find_nodes(p, frames, time_step, odometer, scratch());
+      },
+      [&] { answer_waiting(law, frames, time_step, scratch()); });
 }
 
 void GrainContacts::prefetch(std::size_t p, std::span<const GrainFrame> frames) const {

@@ -14,6 +14,7 @@
 #include "reckon/contact/motion_meter.hpp"
 #include "reckon/contact/near_list.hpp"
 #include "reckon/contact/touch.hpp"
+#include "reckon/contact/touch_batch.hpp"
 #include "reckon/grains/grain_frame.hpp"
 #include "reckon/neighbor/pair_list.hpp"
 
@@ -56,7 +57,10 @@ class GrainContacts {
  public:
   explicit GrainContacts(ContactSettings settings, ContactEngine engine = ContactEngine::near,
                          SimdLevel simd = SimdLevel::automatic)
-      : settings_{std::move(settings)}, engine_{engine}, filter_{point_filter(simd)} {}
+      : settings_{std::move(settings)},
+        engine_{engine},
+        filter_{point_filter(simd)},
+        lanes_{law_lanes(simd)} {}
 
   /// Lists the pairs anew, sorted by ids; touching pairs keep their springs. `slot_count` grains.
   void rebuild(std::vector<Pair> pairs, std::size_t slot_count);
@@ -94,9 +98,16 @@ class GrainContacts {
   void adopt(std::span<const PairSprings> springs);
 
  private:
+  /// A pair whose nodes are in a batch.
+  struct Waiting {
+    std::size_t pair;
+    double wake;
+  };
   /// What one thread works with.
   struct alignas(64) Scratch {
     std::vector<Touch> touches;
+    TouchBatch batch;
+    std::vector<Waiting> waiting;
     ContactCounters counters;
   };
   /// Near lists of one pair: a's nodes on b, b's nodes on a; most rules use one.
@@ -120,17 +131,22 @@ class GrainContacts {
   void evaluate_pairs(const Law& law, Part part, std::span<const GrainFrame> frames,
                       double time_step, bool use_near_lists);
   template <ContactLaw Law>
-  void evaluate_listed(const Law& law, std::size_t p, std::span<const GrainFrame> frames,
-                       double time_step, std::optional<double> odometer, Scratch& scratch);
+  void evaluate_plainly(const Law& law, std::size_t p, std::span<const GrainFrame> frames,
+                        double time_step, Scratch& scratch);
   void prefetch(std::size_t p, std::span<const GrainFrame> frames) const;
-  template <ContactLaw Law, class Find>
-  PairForce evaluate_pair(const Law& law, const GrainFrame& a, const GrainFrame& b,
-                          std::span<const NodeSpring> old_springs, double time_step, Find&& find,
-                          std::vector<Touch>& touches, std::vector<NodeSpring>& new_springs) const;
+  void find_nodes(std::size_t p, std::span<const GrainFrame> frames, double time_step,
+                  double odometer, Scratch& scratch);
+  template <ContactLaw Law>
+  void answer_waiting(const Law& law, std::span<const GrainFrame> frames, double time_step,
+                      Scratch& scratch);
+  [[nodiscard]] PairContext context_of(const GrainFrame& a, const GrainFrame& b,
+                                       double time_step) const;
+  void settle(std::size_t p, double wake, bool had_springs, ContactCounters& counters);
 
   ContactSettings settings_;
   ContactEngine engine_;
   PointFilter filter_;
+  LawLanes lanes_;
   std::vector<Pair> pairs_;
   PairsOfGrain pairs_of_grain_;
   std::vector<SpringRange> springs_of_pair_;  // in store_, as of the last commit

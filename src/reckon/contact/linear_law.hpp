@@ -30,8 +30,8 @@ struct LinearLaw {
                              ? dashpot_factor * std::sqrt(normal_stiffness * context.effective_mass)
                              : 0;
     const double push = -normal_stiffness * touch.phi - gamma * approach;
-    const CoulombSlider shear = slide(spring, velocity, normal, context.time_step, shear_stiffness,
-                                      context.friction * std::abs(push));
+    CoulombSlider shear = slide(spring, velocity, normal, context.time_step, shear_stiffness,
+                                context.friction * std::abs(push));
     return {.force = push * normal + shear.force,
             .shear_force = shear.force,
             .elastic = 0.5 * normal_stiffness * touch.phi * touch.phi +

@@ -30,6 +30,35 @@ struct RigidMotion {
   Vec3 angular_velocity_world;  ///< [rad/s]
 };
 
+/// Of the master's material against the slave's where a node touches; levers from both centres
+/// [m/s].
+[[nodiscard]] inline Vec3 velocity_at(const RigidMotion& master, const Vec3& lever_master,
+                                      const RigidMotion& slave, const Vec3& lever_slave) {
+  return (master.velocity - slave.velocity) + cross(master.angular_velocity_world, lever_master) -
+         cross(slave.angular_velocity_world, lever_slave);
+}
+
+/// Fills in what all touching nodes of a pair share.
+inline void count_touches(PairContext& context, std::span<const Touch> touches) {
+  context.touching = static_cast<std::uint32_t>(touches.size());
+  context.total_area = 0;
+  context.total_volume = 0;
+  for (const Touch& touch : touches) {
+    context.total_area += touch.area;
+    context.total_volume -= touch.area * touch.phi;
+  }
+}
+
+/// Scales forces, moments and energies.
+inline void scale(DirectedForce& sum, double factor) {
+  sum.force *= factor;
+  sum.moment_master *= factor;
+  sum.moment_slave *= factor;
+  sum.elastic *= factor;
+  sum.friction *= factor;
+  sum.dashpot *= factor;
+}
+
 /// The plain finder (paper, Algorithm 2): every node of the master, in order, is taken to the
 /// slave's frame, checked against its bounding sphere, then interpolated. Appends to `touches`.
 void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector<Touch>& touches);
@@ -45,14 +74,7 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
                       const ShapeView& master_shape, bool master_is_b, double weight,
                       std::vector<NodeSpring>& new_springs) {
   DirectedForce sum;
-  context.touching = static_cast<std::uint32_t>(touches.size());
-  context.total_area = 0;
-  context.total_volume = 0;
-  for (const Touch& touch : touches) {
-    context.total_area += touch.area;
-    context.total_volume -= touch.area * touch.phi;
-  }
-
+  count_touches(context, touches);
   const Vec3 center_offset = master_center - slave.center;
   auto old = old_springs.begin();
   const auto let_go = [&](const NodeSpring& spring) {
@@ -64,9 +86,7 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
     if (!(steepness > 0)) continue;  // a flat spot of the distance has no normal
     const Vec3 normal = touch.gradient_world / steepness;
     const Vec3 lever_slave = touch.lever_world + center_offset;
-    const Vec3 velocity = (master.velocity - slave.velocity) +
-                          cross(master.angular_velocity_world, touch.lever_world) -
-                          cross(slave.angular_velocity_world, lever_slave);
+    const Vec3 velocity = velocity_at(master, touch.lever_world, slave, lever_slave);
     while (old != old_springs.end() && old->node < touch.node) let_go(*old++);
     Vec3 spring;
     if (old != old_springs.end() && old->node == touch.node) {
@@ -86,13 +106,7 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
   }
   while (old != old_springs.end()) let_go(*old++);
 
-  const double scale = weight * law.pair_scale(context);
-  sum.force *= scale;
-  sum.moment_master *= scale;
-  sum.moment_slave *= scale;
-  sum.elastic *= scale;
-  sum.friction *= scale;
-  sum.dashpot *= scale;
+  scale(sum, weight * law.pair_scale(context));
   return sum;
 }
 

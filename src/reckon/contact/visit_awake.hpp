@@ -14,10 +14,11 @@ namespace reckon {
 /// Calls evaluate(k, odometer) for every k with counts(k) whose odometer(k) has reached wake[k], on
 /// all threads.
 /// Who is awake in a stretch is known before the first is evaluated, so prefetch(k) can ask the
-/// memory a few ahead. What sleeps costs its odometer and one comparison.
-template <class Counts, class Odometer, class Prefetch, class Evaluate>
+/// memory a few ahead. What sleeps costs its odometer and one comparison. After each stretch its
+/// thread calls finish().
+template <class Counts, class Odometer, class Prefetch, class Evaluate, class Finish>
 void visit_awake(std::span<const double> wake, Counts&& counts, Odometer&& odometer,
-                 Prefetch&& prefetch, Evaluate&& evaluate) {
+                 Prefetch&& prefetch, Evaluate&& evaluate, Finish&& finish) {
   constexpr std::size_t stretch = 128;
   constexpr std::size_t ahead = 3;
   struct Awake {
@@ -39,6 +40,7 @@ void visit_awake(std::span<const double> wake, Counts&& counts, Odometer&& odome
       if (n + ahead < count) prefetch(awake[n + ahead].k);
       evaluate(awake[n].k, awake[n].odometer);
     }
+    finish();
   });
 }
 
