@@ -51,7 +51,7 @@ class Clearance {
   /// phi at a point that lies in the grid but for rounding.
   [[nodiscard]] double phi_near(const Vec3& point) const {
     const auto place = [this](double p, double low, std::int32_t vertices) {
-      const double g = (p - low) / grid_.spacing;
+      const double g = (p - low) * grid_.inverse_spacing;
       const std::int32_t cell =
           std::clamp(static_cast<std::int32_t>(g), std::int32_t{0}, vertices - 2);
       return std::pair{cell, std::clamp(g - cell, 0.0, 1.0)};

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <map>
-#include <type_traits>
+#include <numeric>
 #include <utility>
 
 #include "reckon/contact/near_skin.hpp"
@@ -72,23 +72,36 @@ bool ids_less(GrainId a1, GrainId b1, GrainId a2, GrainId b2) {
 }  // namespace
 
 void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
+  // By ids first, as the old ones can be gone through, then by slots.
+  std::vector<std::uint32_t> by_slots(pairs.size());
+  std::iota(by_slots.begin(), by_slots.end(), 0U);
+  const auto slots = [&](std::uint32_t p) { return std::minmax(pairs[p].slot_a, pairs[p].slot_b); };
+  std::sort(by_slots.begin(), by_slots.end(),
+            [&](std::uint32_t p, std::uint32_t q) { return slots(p) < slots(q); });
+  std::vector<std::uint32_t> by_ids(pairs.size());
+  for (std::uint32_t place = 0; place < by_slots.size(); ++place) by_ids[by_slots[place]] = place;
+
+  std::vector<Pair> listed(pairs.size());
   std::vector<SpringRange> springs(pairs.size());
   std::vector<double> wake(pairs.size(), wake_always);
   std::vector<NearPair> near(pairs.size());
-  std::size_t old = 0;  // both lists are sorted by ids
+  auto old = by_ids_.begin();
   for (std::size_t p = 0; p < pairs.size(); ++p) {
-    while (old < pairs_.size() &&
-           ids_less(pairs_[old].id_a, pairs_[old].id_b, pairs[p].id_a, pairs[p].id_b)) {
+    const std::uint32_t place = by_ids[p];
+    listed[place] = pairs[p];
+    while (old != by_ids_.end() &&
+           ids_less(pairs_[*old].id_a, pairs_[*old].id_b, pairs[p].id_a, pairs[p].id_b)) {
       ++old;
     }
-    if (old < pairs_.size() && pairs_[old].id_a == pairs[p].id_a &&
-        pairs_[old].id_b == pairs[p].id_b) {
-      springs[p] = springs_of_pair_[old];
-      wake[p] = wake_[old];
-      near[p] = std::move(near_[old]);
+    if (old != by_ids_.end() && pairs_[*old].id_a == pairs[p].id_a &&
+        pairs_[*old].id_b == pairs[p].id_b) {
+      springs[place] = springs_of_pair_[*old];
+      wake[place] = wake_[*old];
+      near[place] = std::move(near_[*old]);
     }
   }
-  pairs_ = std::move(pairs);
+  pairs_ = std::move(listed);
+  by_ids_ = std::move(by_ids);
   springs_of_pair_ = std::move(springs);
   wake_ = std::move(wake);
   near_ = std::move(near);
@@ -96,7 +109,7 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
   new_springs_of_pair_.assign(pairs_.size(), {});
   forces_.assign(pairs_.size(), {});
   acts_.assign(pairs_.size(), 0);
-  pairs_of_grain_ = index_pairs(pairs_, slot_count);
+  pairs_of_grain_ = index_pairs(pairs_, by_ids_, slot_count);
 }
 
 PairContext GrainContacts::context_of(const GrainFrame& a, const GrainFrame& b,
@@ -292,16 +305,16 @@ void GrainContacts::commit() {
 
 std::size_t GrainContacts::bytes() const {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  std::size_t sum = of(pairs_) + of(pairs_of_grain_.first) + of(pairs_of_grain_.entries) +
-                    of(springs_of_pair_) + of(new_springs_of_pair_) + of(forces_) + of(acts_) +
-                    of(wake_) + of(near_) + store_.bytes();
+  std::size_t sum = of(pairs_) + of(by_ids_) + of(pairs_of_grain_.first) +
+                    of(pairs_of_grain_.entries) + of(springs_of_pair_) + of(new_springs_of_pair_) +
+                    of(forces_) + of(acts_) + of(wake_) + of(near_) + store_.bytes();
   for (const NearPair& pair : near_) sum += pair.of_a.bytes() + pair.of_b.bytes();
   return sum;
 }
 
 std::vector<PairSprings> GrainContacts::springs() const {
   std::vector<PairSprings> all;
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+  for (const std::uint32_t p : by_ids_) {
     const auto springs = store_.read(springs_of_pair_[p]);
     if (springs.empty()) continue;
     all.push_back({pairs_[p].id_a, pairs_[p].id_b, {springs.begin(), springs.end()}});
@@ -310,34 +323,24 @@ std::vector<PairSprings> GrainContacts::springs() const {
 }
 
 void GrainContacts::adopt(std::span<const PairSprings> springs) {
-  std::map<std::pair<GrainId, GrainId>, std::size_t> listed;
-  for (std::size_t p = 0; p < pairs_.size(); ++p) listed[{pairs_[p].id_a, pairs_[p].id_b}] = p;
+  std::map<std::pair<GrainId, GrainId>, std::uint32_t> listed;
+  for (const std::uint32_t p : by_ids_) listed[{pairs_[p].id_a, pairs_[p].id_b}] = p;
   for (const PairSprings& pair : springs) {
-    const auto [entry, added] = listed.try_emplace({pair.id_a, pair.id_b}, pairs_.size());
+    const auto place = static_cast<std::uint32_t>(pairs_.size());
+    const auto [entry, added] = listed.try_emplace({pair.id_a, pair.id_b}, place);
     if (added) {
       pairs_.push_back({pair.id_a, pair.id_b, 0, 0});
       springs_of_pair_.emplace_back();
       wake_.push_back(wake_always);
       near_.emplace_back();
     }
-    const std::size_t p = entry->second;
+    const std::uint32_t p = entry->second;
     if (springs_of_pair_[p].count > 0) continue;  // both ranks of a pair hold the same springs
     springs_of_pair_[p] = store_.adopt(pair.springs);
     wake_[p] = wake_always;
   }
-  // Back into the order of the ids, which rebuild() relies on.
-  std::vector<std::size_t> order;
-  order.reserve(listed.size());
-  for (const auto& [ids, p] : listed) order.push_back(p);
-  const auto reorder = [&order](auto& values) {
-    std::remove_reference_t<decltype(values)> sorted;
-    for (const std::size_t p : order) sorted.push_back(std::move(values[p]));
-    values = std::move(sorted);
-  };
-  reorder(pairs_);
-  reorder(springs_of_pair_);
-  reorder(wake_);
-  reorder(near_);
+  by_ids_.clear();
+  for (const auto& [ids, p] : listed) by_ids_.push_back(p);
 }
 
 }  // namespace reckon

@@ -62,7 +62,8 @@ class GrainContacts {
         filter_{point_filter(simd)},
         lanes_{law_lanes(simd)} {}
 
-  /// Lists the pairs anew, sorted by ids; touching pairs keep their springs. `slot_count` grains.
+  /// Lists the pairs anew, which must be sorted by ids; pairs that were listed keep their springs.
+  /// `slot_count` grains.
   void rebuild(std::vector<Pair> pairs, std::size_t slot_count);
 
   /// Finds touching nodes and computes the force of every listed pair.
@@ -82,6 +83,7 @@ class GrainContacts {
   /// The springs of the last evaluate() become the memory of the next.
   void commit();
 
+  /// In the order of their slots, so that neighbours in space are neighbours in memory.
   [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
   [[nodiscard]] std::span<const PairForce> forces() const { return forces_; }
   [[nodiscard]] const ContactCounters& counters() const { return counters_; }
@@ -148,6 +150,7 @@ class GrainContacts {
   PointFilter filter_;
   LawLanes lanes_;
   std::vector<Pair> pairs_;
+  std::vector<std::uint32_t> by_ids_;  // the pairs sorted by ids
   PairsOfGrain pairs_of_grain_;
   std::vector<SpringRange> springs_of_pair_;  // in store_, as of the last commit
   std::vector<SpringRange> new_springs_of_pair_;

@@ -82,7 +82,8 @@ double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave,
     }
     const double phi = node.cell.value(where.x, where.y, where.z);
     if (!(phi < 0)) return sleep(phi * other.slope);
-    const Vec3 gradient_body = node.cell.gradient(where.x, where.y, where.z) / other.grid.spacing;
+    const Vec3 gradient_body =
+        other.grid.inverse_spacing * node.cell.gradient(where.x, where.y, where.z);
     touches.push_back({node.node, phi, slave.rotation * gradient_body,
                        master.rotation * node.place_body, node.area});
     return wake_always;

@@ -25,7 +25,7 @@ void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector
     const CellPolynomial cell = grid.polynomial(where.i, where.j, where.k);
     const double phi = cell.value(where.x, where.y, where.z);
     if (!(phi < 0)) continue;
-    const Vec3 gradient_body = cell.gradient(where.x, where.y, where.z) / grid.spacing;
+    const Vec3 gradient_body = grid.inverse_spacing * cell.gradient(where.x, where.y, where.z);
     touches.push_back({static_cast<NodeIndex>(n), phi, slave.rotation * gradient_body,
                        master.rotation * node_body, shape.node_area[n]});
   }

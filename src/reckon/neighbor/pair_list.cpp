@@ -56,7 +56,8 @@ std::vector<Pair> find_pairs_brute_force(std::span<const GrainId> ids,
   return pairs;
 }
 
-PairsOfGrain index_pairs(std::span<const Pair> pairs, std::size_t slot_count) {
+PairsOfGrain index_pairs(std::span<const Pair> pairs, std::span<const std::uint32_t> by_ids,
+                         std::size_t slot_count) {
   PairsOfGrain index;
   index.first.assign(slot_count + 1, 0);
   for (const Pair& pair : pairs) {
@@ -67,10 +68,10 @@ PairsOfGrain index_pairs(std::span<const Pair> pairs, std::size_t slot_count) {
   index.entries.resize(2 * pairs.size());
   std::vector<std::uint32_t> cursor(index.first.begin(), index.first.end() - 1);
   // A grain's partners of lower id are those of the pairs in which it is `b`: they come first.
-  for (std::uint32_t p = 0; p < pairs.size(); ++p) {
+  for (const std::uint32_t p : by_ids) {
     index.entries[cursor[pairs[p].slot_b]++] = {p, false};
   }
-  for (std::uint32_t p = 0; p < pairs.size(); ++p) {
+  for (const std::uint32_t p : by_ids) {
     index.entries[cursor[pairs[p].slot_a]++] = {p, true};
   }
   return index;

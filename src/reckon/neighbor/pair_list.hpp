@@ -55,7 +55,9 @@ struct PairsOfGrain {
   }
 };
 
-/// `pairs` sorted as find_pairs returns them; `slot_count` grains.
-[[nodiscard]] PairsOfGrain index_pairs(std::span<const Pair> pairs, std::size_t slot_count);
+/// `by_ids` lists the pairs as sort_by_ids orders them; `slot_count` grains.
+[[nodiscard]] PairsOfGrain index_pairs(std::span<const Pair> pairs,
+                                       std::span<const std::uint32_t> by_ids,
+                                       std::size_t slot_count);
 
 }  // namespace reckon

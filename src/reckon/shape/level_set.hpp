@@ -52,15 +52,20 @@ struct CellPolynomial {
 struct LevelSetView {
   std::array<std::int32_t, 3> dims{0, 0, 0};
   double spacing{0};
+  double inverse_spacing{0};
   Vec3 origin_body;
   std::span<const float> values;
 
   LevelSetView() = default;
   LevelSetView(const LevelSet& grid)  // NOLINT(google-explicit-constructor): a view, like span
-      : dims{grid.dims},
-        spacing{grid.spacing},
-        origin_body{grid.origin_body},
-        values{grid.values} {}
+      : LevelSetView{grid.dims, grid.spacing, grid.origin_body, grid.values} {}
+  LevelSetView(const std::array<std::int32_t, 3>& grid_dims, double grid_spacing,
+               const Vec3& grid_origin_body, std::span<const float> grid_values)
+      : dims{grid_dims},
+        spacing{grid_spacing},
+        inverse_spacing{1 / grid_spacing},
+        origin_body{grid_origin_body},
+        values{grid_values} {}
 
   /// The cell that holds a point, and the point's place in it.
   struct Location {
@@ -70,9 +75,9 @@ struct LevelSetView {
   };
 
   [[nodiscard]] Location locate(const Vec3& point_body) const {
-    const double gx = (point_body.x - origin_body.x) / spacing;
-    const double gy = (point_body.y - origin_body.y) / spacing;
-    const double gz = (point_body.z - origin_body.z) / spacing;
+    const double gx = (point_body.x - origin_body.x) * inverse_spacing;
+    const double gy = (point_body.y - origin_body.y) * inverse_spacing;
+    const double gz = (point_body.z - origin_body.z) * inverse_spacing;
     // Written so that a NaN counts as outside.
     if (!(gx >= 0 && gy >= 0 && gz >= 0 && gx <= dims[0] - 1 && gy <= dims[1] - 1 &&
           gz <= dims[2] - 1)) {
@@ -117,7 +122,7 @@ struct LevelSetView {
     const Location at = locate(point_body);
     if (!at.inside) return {0, {}, false};
     const CellPolynomial cell = polynomial(at.i, at.j, at.k);
-    return {cell.value(at.x, at.y, at.z), cell.gradient(at.x, at.y, at.z) / spacing, true};
+    return {cell.value(at.x, at.y, at.z), inverse_spacing * cell.gradient(at.x, at.y, at.z), true};
   }
 };
 

@@ -72,11 +72,10 @@ std::uint64_t ShapeOutline::memory() const {
 }
 
 ShapeView::ShapeView(const ShapeOutline& outline)
-    : mass{outline.mass}, bounding_radius{outline.bounding_radius}, lipschitz{outline.lipschitz} {
-  level_set.dims = outline.dims;
-  level_set.spacing = outline.spacing;
-  level_set.origin_body = outline.origin_body;
-}
+    : level_set{outline.dims, outline.spacing, outline.origin_body, {}},
+      mass{outline.mass},
+      bounding_radius{outline.bounding_radius},
+      lipschitz{outline.lipschitz} {}
 
 ShapeView::ShapeView(const Shape& shape)
     : level_set{shape.level_set},

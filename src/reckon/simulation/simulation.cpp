@@ -12,6 +12,7 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/stopwatch.hpp"
 #include "reckon/neighbor/grain_costs.hpp"
+#include "reckon/neighbor/space_order.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
@@ -77,6 +78,7 @@ void Simulation::bring_up_to_date() {
     let_grains_out();
     distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_, costs_,
                                2 * (largest_radius_ + largest_budget()));
+    put_in_order();
     phase_times_.migration += watch.lap();
     distribution_.list_ghosts(grains_);
     phase_times_.border += watch.lap();
@@ -128,6 +130,15 @@ void Simulation::let_grains_out() {
   }
   distribution_.ranks().sum({&left, 1});
   distribution_.expect_fewer(static_cast<std::size_t>(left));
+}
+
+/// Neighbours in space become neighbours in memory.
+void Simulation::put_in_order() {
+  const std::vector<std::uint32_t> order = space_order(grains_.position);
+  if (std::is_sorted(order.begin(), order.end())) return;
+  Grains ordered;
+  for (const std::uint32_t slot : order) ordered.push_back(grains_.state(slot));
+  grains_ = std::move(ordered);
 }
 
 /// Grids and nodes of the shapes of all grains that this rank sees.

@@ -111,6 +111,7 @@ class Simulation {
  private:
   void bring_up_to_date();
   void let_grains_out();
+  void put_in_order();
   void require_shapes();
   void update_inertias();
   void update_ghost_frames();

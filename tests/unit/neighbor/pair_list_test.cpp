@@ -96,7 +96,9 @@ TEST(PairList, EmptyAndSingle) {
 TEST(PairsOfGrain, ListsPartnersByIdAndEachPairTwice) {
   const Cloud cloud = random_cloud(9, 400, 5);
   const auto pairs = find_pairs(cloud.ids, cloud.positions, cloud.radii, 0.3, cloud.ids.size());
-  const PairsOfGrain index = index_pairs(pairs, cloud.ids.size());
+  std::vector<std::uint32_t> by_ids(pairs.size());
+  std::iota(by_ids.begin(), by_ids.end(), 0U);
+  const PairsOfGrain index = index_pairs(pairs, by_ids, cloud.ids.size());
   std::size_t entries = 0;
   for (std::size_t slot = 0; slot < cloud.ids.size(); ++slot) {
     std::uint32_t last_partner = 0;
