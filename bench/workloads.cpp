@@ -161,7 +161,8 @@ Workload settle(std::uint32_t grains, const WorkloadRequest& request) {
 }
 
 Workload heap(std::uint32_t grains, const WorkloadRequest& request) {
-  const double edge = 0.6 * diameter * std::cbrt(static_cast<double>(grains));
+  // A narrow column; no narrower than one grain needs.
+  const double edge = diameter * std::max(0.6 * std::cbrt(static_cast<double>(grains)), 3.0);
   Workload work = falling(grains, BoxConfig{{0, 0, 0}, {edge, edge, 100 * edge}}, {0, 0, -2});
   if (request.small) work.stretches = 2;
   return work;
