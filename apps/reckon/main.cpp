@@ -57,17 +57,24 @@ void require_known_command(const CLI::App& app, int argc, char** argv) {
                            : fmt::format("There are {}.", fmt::join(names, ", "))}};
 }
 
-/// Idle threads of GNU's OpenMP spin for milliseconds before they sleep. Where other programs want
-/// the cores too, each of the many short parallel loops of a step then waits for a turn of the
-/// scheduler, and a run becomes a hundred times slower. The library reads its settings before main,
-/// so the program starts itself once more with a short spin, unless the user has chosen one.
+/// Two libraries read their settings before main, so the program starts itself once more with what
+/// suits it, unless the user has chosen:
+/// - Idle threads of GNU's OpenMP spin for milliseconds before they sleep. Where other programs
+/// want
+///   the cores too, each of the many short parallel loops of a step then waits for a turn of the
+///   scheduler, and a run becomes a hundred times slower. A short spin will do.
+/// - GNU's malloc can ask for huge pages. The near lists of many pairs are more pages than a
+///   processor remembers the addresses of.
 // NOLINTBEGIN(concurrency-mt-unsafe): the environment is read before any thread starts
-void restart_with_short_spin(char** argv) {
-  for (const char* name : {"GOMP_SPINCOUNT", "OMP_WAIT_POLICY"}) {
+void restart_with_settings(char** argv) {
+  bool changed = false;
+  const auto prefer = [&](const char* name, const char* value) {
     if (std::getenv(name) != nullptr) return;
-  }
-  setenv("GOMP_SPINCOUNT", "20000", 1);
-  execv("/proc/self/exe", argv);  // on failure: go on as we are
+    changed = setenv(name, value, 1) == 0 || changed;
+  };
+  if (std::getenv("OMP_WAIT_POLICY") == nullptr) prefer("GOMP_SPINCOUNT", "20000");
+  prefer("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1");
+  if (changed) execv("/proc/self/exe", argv);  // on failure: go on as we are
 }
 
 /// Whether mpirun, srun or the like started this process. Without them MPI is left alone: starting
@@ -149,7 +156,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
 // What escapes while the options are described ends the program with its own text.
 int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   using namespace reckon::app;
-  restart_with_short_spin(argv);
+  restart_with_settings(argv);
   if (!started_by_launcher()) return run_command_line(argc, argv, {});
   try {
     const reckon::ParallelSession session{argc, argv};
