@@ -14,7 +14,6 @@ namespace reckon {
 ///
 ///   F_n = -k_n A phi grad(phi)      F_s: Coulomb spring with k_s A, |F_s| <= mu |F_n|
 ///
-///
 /// The gradient is that of the interpolant, not normalised: the normal force is then minus the
 /// derivative of the energy k_n A phi^2 / 2, and a frictionless collision loses nothing.
 ///
@@ -53,6 +52,10 @@ struct AreaLaw {
   }
 
   [[nodiscard]] double pair_scale(const PairContext& /*context*/) const { return 1.0; }
+
+  [[nodiscard]] double pair_stiffness(const PairContext& context) const {
+    return normal_stiffness * context.total_area;
+  }
 
   [[nodiscard]] double stored_shear_energy(const Vec3& spring, double area) const {
     return area > 0 ? squared_norm(spring) / (2 * shear_stiffness * area) : 0;

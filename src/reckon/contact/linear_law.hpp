@@ -46,6 +46,10 @@ struct LinearLaw {
                : 1.0;
   }
 
+  [[nodiscard]] double pair_stiffness(const PairContext& context) const {
+    return normal_stiffness * static_cast<double>(context.touching) * pair_scale(context);
+  }
+
   [[nodiscard]] double stored_shear_energy(const Vec3& spring, double /*area*/) const {
     return squared_norm(spring) / (2 * shear_stiffness);
   }
