@@ -12,6 +12,8 @@ struct StressInvariants {
   double deviator{0};        ///< q = sqrt(3 J2): sigma_1 - sigma_3 where two are equal [Pa]
   Vec3 principal;            ///< ascending [Pa]
   double friction_angle{0};  ///< mobilised: sin = (sigma_1 - sigma_3) / (sigma_1 + sigma_3) [deg]
+
+  friend bool operator==(const StressInvariants&, const StressInvariants&) = default;
 };
 
 /// Of the symmetric part of `stress` [Pa].

@@ -25,6 +25,7 @@ WallForce force_of(const DirectedForce& directed, const Mat3& first_moment,
           directed.dashpot,
           dot(directed.force, wall_velocity) * time_step,
           directed.stiffness,
+          directed.damping,
           first_moment,
           directed.touching};
 }

@@ -19,14 +19,15 @@ namespace reckon {
 
 /// What one wall does to one grain at the current step.
 struct WallForce {
-  Vec3 force;          ///< on the grain [N]
-  Vec3 moment;         ///< about its centre of mass [N m]
-  double deepest{0};   ///< [m]
-  double elastic{0};   ///< stored [J]
-  double friction{0};  ///< lost in this step [J]
-  double dashpot{0};   ///< lost in this step [J]
-  double work{0};      ///< done on the grain by the moving wall in this step [J]
+  Vec3 force;           ///< on the grain [N]
+  Vec3 moment;          ///< about its centre of mass [N m]
+  double deepest{0};    ///< [m]
+  double elastic{0};    ///< stored [J]
+  double friction{0};   ///< lost in this step [J]
+  double dashpot{0};    ///< lost in this step [J]
+  double work{0};       ///< done on the grain by the moving wall in this step [J]
   double stiffness{0};  ///< of all touching nodes, along the normal [N/m]
+  double damping{0};    ///< likewise [N s/m]
   /// Sum of the nodes' forces times their levers about the centre of mass, f (x) l [N m].
   Mat3 first_moment{Vec3{}, Vec3{}, Vec3{}};
   std::uint32_t touching{0};

@@ -23,16 +23,16 @@ enum class WallTarget {
 /// Drives one plane, or two that face each other and move alike, so that the sample stays where it
 /// is. Deterministic: it looks at exact sums only.
 ///
-/// A stress is held by a servo: the planes move by
+/// A stress is held by a servo. One step on, planes at speed v feel K v dt + C (v - v_last) more,
+/// where K and C are the sums of the stiffnesses and of the dashpots of the contacts at them: the
+/// grains have not moved yet. The servo takes the speed that closes a share of the gap,
 ///
-///   dx = gain (target area - F) / K       |dx| <= rate_limit L dt
+///   K v dt + C (v - v_last) = gain (target area - F)       |v| <= rate_limit L
 ///
-/// where F is the sum of the normal forces on them, K the sum of the stiffnesses of the contacts at
-/// them, both as of this very step, and L the space's length along the normal. For the sample such a
-/// plane is a piston without mass, pushed with the target force through a dashpot of
-/// K dt / gain, which takes energy out of every wave: it is stable for a gain below one, whatever
-/// lies behind, because K is all that answers within one step. Where nothing touches, the planes
-/// come closer at the limit of the rate.
+/// with F the sum of the normal forces on the planes and L the space's length along the normal, all
+/// as of this very step. The sample sees a piston of mass C dt / gain that is pushed with the
+/// target force through a dashpot of K dt / gain: it takes energy out of every wave, and is stable
+/// for a gain below one, whatever lies behind. Where nothing touches, planes move at the limit.
 struct WallControl {
   std::string name;           ///< as the scene names the planes
   std::vector<WallId> walls;  ///< one or two planes
@@ -46,6 +46,7 @@ struct WallControl {
 struct WallReaction {
   double normal_force{0};  ///< out of the space, compression positive [N]
   double stiffness{0};     ///< of all contacts, along the normal [N/m]
+  double damping{0};       ///< likewise [N s/m]
 };
 
 /// The space's length along the planes of a control, the mean distance of its end faces [m].
@@ -54,9 +55,10 @@ struct WallReaction {
 [[nodiscard]] double stress_on(const WallControl& control, std::span<const WallReaction> reactions,
                                const Enclosure& space);
 
-/// The speed of each plane of the control into the space [m/s].
+/// The speed of each plane of the control into the space, `last` being that over the last step
+/// [m/s].
 [[nodiscard]] double speed_for(const WallControl& control, std::span<const WallReaction> reactions,
-                               const Enclosure& space, double time_step);
+                               const Enclosure& space, double last, double time_step);
 
 /// Moves all driven walls from one step to the next; walls without a control stand still.
 void advance(std::span<const WallControl> controls, std::span<const Wall> walls,

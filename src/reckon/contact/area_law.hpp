@@ -34,11 +34,9 @@ struct AreaLaw {
     const double steepness = norm(touch.gradient_world);
     const double elastic_push = -normal_stiffness * touch.area * touch.phi * steepness;
     const double approach = dot(normal, velocity);
-    const double pair_dashpot =
-        dashpot_factor * std::sqrt(context.effective_mass * normal_stiffness * context.total_area);
     const double share =
         context.total_volume > 0 ? -touch.area * touch.phi / context.total_volume : 0;
-    const double gamma = pair_dashpot * share + viscosity * touch.area;
+    const double gamma = pair_dashpot(context) * share + viscosity * touch.area;
     const double push = std::max(elastic_push - gamma * approach, 0.0);
     const double stiffness = shear_stiffness * touch.area;
     CoulombSlider shear =
@@ -57,8 +55,18 @@ struct AreaLaw {
     return normal_stiffness * context.total_area;
   }
 
+  [[nodiscard]] double pair_damping(const PairContext& context) const {
+    return pair_dashpot(context) + viscosity * context.total_area;
+  }
+
   [[nodiscard]] double stored_shear_energy(const Vec3& spring, double area) const {
     return area > 0 ? squared_norm(spring) / (2 * shear_stiffness * area) : 0;
+  }
+
+ private:
+  [[nodiscard]] double pair_dashpot(const PairContext& context) const {
+    return dashpot_factor *
+           std::sqrt(context.effective_mass * normal_stiffness * context.total_area);
   }
 };
 static_assert(ContactLaw<AreaLaw>);

@@ -17,11 +17,12 @@ struct DirectedForce {
   Vec3 moment_master;  ///< about the master's centre of mass, world frame [N m]
   Vec3 moment_slave;   ///< of the opposite force, about the slave's centre of mass [N m]
   std::uint32_t touching{0};
-  double deepest{0};   ///< largest penetration [m]
-  double elastic{0};   ///< [J]
-  double friction{0};  ///< lost in this step [J]
-  double dashpot{0};   ///< lost in this step [J]
+  double deepest{0};    ///< largest penetration [m]
+  double elastic{0};    ///< [J]
+  double friction{0};   ///< lost in this step [J]
+  double dashpot{0};    ///< lost in this step [J]
   double stiffness{0};  ///< see ContactLaw [N/m]
+  double damping{0};    ///< likewise [N s/m]
 };
 
 /// How the slave moves: the velocity of its material at a point.
@@ -67,8 +68,8 @@ void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector
 /// Turns the touching nodes of one master into forces, in node order, and appends their new
 /// springs. `old_springs` are last step's springs of the same master and slave, in node order.
 /// `weight` scales forces and energies (1, or 1/2 where both grains are masters in turn), not the
-/// springs. Where `first_moment` is given, it becomes the sum of the nodes' forces times their levers
-/// about the master's centre, f (x) l [N m].
+/// springs. Where `first_moment` is given, it becomes the sum of the nodes' forces times their
+/// levers about the master's centre, f (x) l [N m].
 template <ContactLaw Law>
 DirectedForce respond(const Law& law, PairContext context, const Vec3& master_center,
                       const RigidMotion& master, const RigidMotion& slave,
@@ -113,6 +114,7 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
   const double factor = weight * law.pair_scale(context);
   scale(sum, factor);
   sum.stiffness = weight * law.pair_stiffness(context);
+  sum.damping = weight * law.pair_damping(context);
   if (first_moment != nullptr) *first_moment = factor * *first_moment;
   return sum;
 }

@@ -62,7 +62,7 @@ std::vector<WallPose> Simulation::poses_at_stage_start() const {
 
 std::vector<WallReaction> Simulation::wall_reactions() const {
   const std::size_t walls = setup_.walls.size();
-  std::vector<ExactSum> sums(2 * walls);  // forces, then stiffnesses
+  std::vector<ExactSum> sums(3 * walls);  // forces, then stiffnesses, then dashpots
   for (std::size_t c = 0; c < wall_contacts_.candidates().size(); ++c) {
     const WallForce& contact = wall_contacts_.forces()[c];
     if (contact.touching == 0) continue;
@@ -71,11 +71,12 @@ std::vector<WallReaction> Simulation::wall_reactions() const {
     if (plane == nullptr) continue;  // no control moves it
     sums[wall].add(dot(contact.force, plane->normal_unit));
     sums[walls + wall].add(contact.stiffness);
+    sums[2 * walls + wall].add(contact.damping);
   }
   add_up(distribution_.ranks(), sums);
   std::vector<WallReaction> reactions;
   for (std::size_t w = 0; w < walls; ++w) {
-    reactions.push_back({sums[w].value(), sums[walls + w].value()});
+    reactions.push_back({sums[w].value(), sums[walls + w].value(), sums[2 * walls + w].value()});
   }
   return reactions;
 }
