@@ -102,7 +102,7 @@ void estimate_output(const LoadedScene& scene, std::uint64_t row_bytes, RunPlan&
 }
 
 /// Makes steps in memory to know how long they take.
-void time_steps(PreparedScene& prepared, double timing_seconds, RunPlan& plan,
+void time_steps(PreparedScene& prepared, double timing_seconds, bool with_sample, RunPlan& plan,
                 std::uint64_t& row_bytes) {
   plan.threads = thread_count();
   double seconds_per_row = 0;
@@ -123,7 +123,10 @@ void time_steps(PreparedScene& prepared, double timing_seconds, RunPlan& plan,
     const Clock::time_point measuring = Clock::now();
     measurement = simulation.measure();
     seconds_per_row = seconds_since(measuring);
-    row_bytes = history_row(measurement, 0).size() + 1;
+    const SampleMeasurement sample = measure_sample(simulation);
+    row_bytes = history_row({.measurement = measurement, .sample = with_sample ? &sample : nullptr})
+                    .size() +
+                1;
   } catch (const Error& error) {
     plan.trial_failure = error.what();
   }
@@ -145,7 +148,7 @@ RunPlan plan_run(const LoadedScene& scene, double timing_seconds) {
   estimate_memory(plan);
   plan.history_rows = 1 + occasions(plan.steps, scene.config.output.history_interval);
   std::uint64_t row_bytes = 0;
-  time_steps(prepared, timing_seconds, plan, row_bytes);
+  time_steps(prepared, timing_seconds, scene.config.output.sample, plan, row_bytes);
   estimate_output(scene, row_bytes, plan);
   plan.output_seconds += static_cast<double>(plan.output_bytes) / disk_rate;
   plan.duration = static_cast<double>(plan.steps) * plan.seconds_per_step + plan.output_seconds;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "reckon/io/describe_grains.hpp"
+#include "reckon/io/describe_stages.hpp"
 #include "reckon/io/describe_walls.hpp"
 #include "reckon/io/scene_key.hpp"
 #include "reckon/simulation/config.hpp"
@@ -131,7 +132,7 @@ void describe(Visitor& v, BodyForceConfig& body) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, TimeConfig& time) {
+void describe(Visitor& v, TimeConfig& time, bool stages) {
   v.one_of(Presence::at_most_one, {"step", "step_fraction"}, time.step ? 0U : 1U,
            [&](std::size_t which) {
              if (which == 0) {
@@ -149,8 +150,8 @@ void describe(Visitor& v, TimeConfig& time) {
                         time.step_fraction);
              }
            });
-  v.one_of(Presence::exactly_one, {"duration", "steps"}, time.duration ? 0U : 1U,
-           [&](std::size_t which) {
+  v.one_of(stages ? Presence::at_most_one : Presence::exactly_one, {"duration", "steps"},
+           time.duration ? 0U : 1U, [&](std::size_t which) {
              if (which == 0) {
                v.number({.name = "duration",
                          .unit = "s",
@@ -173,6 +174,10 @@ void describe(Visitor& v, TimeConfig& time) {
             .standard = "runs to the end",
             .meaning = "Ends the run early when the unbalanced force ratio falls below this."},
            time.stop_at_unbalanced_ratio);
+  v.rule(!stages || !(v.given("duration") || v.given("steps") || v.given("stop_at_unbalanced_ratio")),
+         {"duration", "steps", "stop_at_unbalanced_ratio"},
+         "with [[stage]] tables, only they say when to end: no `duration`, `steps` or "
+         "`stop_at_unbalanced_ratio` here");
 }
 
 template <class Visitor>
@@ -226,6 +231,10 @@ void describe(Visitor& v, OutputConfig& output) {
              .unit_note = "steps",
              .meaning = "Steps between ParaView files; 0: only start and end."},
             output.fields_interval);
+  v.flag({.name = "sample",
+          .meaning = "Adds columns to history.csv for stress, strain, void ratio, fabric and forces "
+                     "of the sample between the walls."},
+         output.sample);
   v.flag({.name = "contacts", .meaning = "Writes contacts as lines beside the grains."},
          output.contacts);
   v.flag({.name = "surfaces", .meaning = "Writes the grains' true surfaces beside the grains."},
@@ -259,7 +268,13 @@ void describe(Visitor& v, SceneConfig& scene) {
             .meaning = "Grains whose centre gets beyond it are taken out of the simulation; "
                        "history.csv counts them. Without one no grain is ever removed."},
            scene.outflows, [&](OutflowConfig& outflow) { describe(v, outflow); });
-  v.table({.name = "time", .meaning = "How long to run."}, [&] { describe(v, scene.time); });
+  v.tables({.name = "stage",
+            .standard = "none: one run for the length in [time]",
+            .meaning = "A stage of a test. Stages run one after another; the run ends with the "
+                       "last."},
+           scene.stages, [&](StageConfig& stage) { describe(v, stage); });
+  v.table({.name = "time", .meaning = "How long to run."},
+          [&] { describe(v, scene.time, !scene.stages.empty()); });
   v.table({.name = "neighbor", .meaning = "How neighbours are found."},
           [&] { describe(v, scene.neighbor); });
   v.table({.name = "parallel",

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "reckon/simulation/stage_setup.hpp"
+
 namespace reckon {
 namespace {
 
@@ -44,6 +46,8 @@ std::vector<std::pair<std::string, WallSurface>> surfaces(const WallConfig& wall
   return {sides.begin(), sides.end()};
 }
 
+}  // namespace
+
 std::vector<Wall> make_walls(const SceneConfig& scene) {
   std::vector<Wall> walls;
   for (const WallConfig& config : scene.walls) {
@@ -58,8 +62,6 @@ std::vector<Wall> make_walls(const SceneConfig& scene) {
   }
   return walls;
 }
-
-}  // namespace
 
 std::vector<PlaneSurface> outflow_planes(const SceneConfig& scene) {
   std::vector<PlaneSurface> planes;
@@ -98,14 +100,19 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
                      config.body.random_interval, config.seed, scene.own_accelerations},
       .damping = config.body.damping,
       .time_step = prepared.time_step.step,
+      .stages = {},
       .skin = config.neighbor.skin * smallest_radius,
       .engine = config.neighbor.engine,
       .simd = resolve(config.neighbor.simd),
       .decomposition = config.parallel.decomposition,
   };
+  prepared.setup.stages = make_stages(config, prepared.setup.walls);
   prepared.initial.grains = scene.grains;
   prepared.steps = config.time.steps.value_or(static_cast<std::uint64_t>(
       std::ceil(config.time.duration.value_or(0) / prepared.time_step.step * (1 - 1e-12))));
+  for (const StageConfig& stage : config.stages) {
+    prepared.steps += most_steps(stage, prepared.time_step.step);
+  }
   return prepared;
 }
 

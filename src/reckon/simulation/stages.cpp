@@ -22,6 +22,14 @@ void Simulation::take_over_walls_and_stages(const SimulationState& state) {
   Unpacker message{bytes};
   driven_walls_ = message.take_all<DrivenWall>();
   stage_starts_ = message.take_all<std::uint64_t>();
+  const bool fits = (driven_walls_.empty() || driven_walls_.size() == setup_.walls.size()) &&
+                    stage_starts_.size() <= setup_.stages.size();
+  if (!fits) {
+    throw Error{{.place = "the state to go on from",
+                 .problem = "it has other walls or stages than the scene",
+                 .reason = {},
+                 .fix = "Go on with the scene that it came from."}};
+  }
   driven_walls_.resize(setup_.walls.size());
   if (!setup_.stages.empty() && stage_starts_.empty()) stage_starts_ = {step_};
   apply_stage();
