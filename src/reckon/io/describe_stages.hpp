@@ -16,7 +16,8 @@ void describe(Visitor& v, ControlConfig& control) {
   v.text({.name = "wall",
           .required = true,
           .meaning = "Which planes it moves: the name of a plane, one side of a box "
-                     "(`\"box.z+\"`), or two that face each other and move alike (`\"box.z\"`)."},
+                     "(`\"box.z+\"`), two that face each other and move alike (`\"box.z\"`), or "
+                     "all six as three such pairs (`\"box\"`)."},
          control.wall);
   v.one_of(Presence::exactly_one, {"stress", "strain_rate", "speed"},
            static_cast<std::size_t>(control.target), [&](std::size_t which) {
@@ -77,8 +78,9 @@ void describe(Visitor& v, StageGoal& goal) {
             .unit = "1",
             .range = above(0),
             .standard = "not asked",
-            .meaning = "The space has changed its length along some axis by this logarithmic "
-                       "strain, shorter or longer, since the stage began."},
+            .meaning = "The space has become shorter or longer by this logarithmic strain since "
+                       "the stage began: along the planes that are moved by `strain_rate` or "
+                       "`speed`, or, where none are, along some axis."},
            goal.strain);
   v.number({.name = "stress_above",
             .unit = "Pa",

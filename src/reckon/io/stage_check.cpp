@@ -32,7 +32,10 @@ void StageCheck::run() {
 
 void StageCheck::check_control(const ControlConfig& control, const std::string& key,
                                std::vector<bool>& controlled) {
-  const std::vector<WallId> planes = planes_named(walls_, control.wall);
+  std::vector<WallId> planes;
+  for (const auto& group : planes_named(walls_, control.wall)) {
+    planes.insert(planes.end(), group.begin(), group.end());
+  }
   if (planes.empty()) {
     return fault_(key + ".wall", fmt::format("no plane or pair of planes is named \"{}\"", control.wall),
                   known_planes());

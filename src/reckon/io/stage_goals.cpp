@@ -7,8 +7,32 @@
 #include <limits>
 #include <vector>
 
+#include "reckon/math/portable.hpp"
+
 namespace reckon {
 namespace {
+
+/// The first planes that are moved by strain rate or speed.
+const WallControl* driven_planes(const StageSetup& stage) {
+  for (const WallControl& control : stage.controls) {
+    if (control.target != WallTarget::stress) return &control;
+  }
+  return nullptr;
+}
+
+/// Along the driven planes, or of the axis where it is largest if there are none.
+double strain_since_start(const Simulation& simulation, const SampleMeasurement& sample) {
+  const WallControl* driven = driven_planes(*simulation.stage());
+  if (driven == nullptr) {
+    const Vec3& strain = sample.strain;
+    return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)});
+  }
+  const auto& walls = simulation.setup().walls;
+  const auto start = enclosure_of(walls, simulation.poses_at_stage_start());
+  const auto now = enclosure_of(walls, simulation.wall_contacts().poses());
+  if (!start || !now) return 0;
+  return std::abs(portable::log(length_along(*driven, *start) / length_along(*driven, *now)));
+}
 
 struct WallStresses {
   double largest_error{0};  // of the servos, relative
@@ -27,7 +51,7 @@ WallStresses wall_stresses(const Simulation& simulation) {
       const double lacking = std::abs(stress - control.value);
       result.largest_error = std::max(
           result.largest_error, control.value > 0 ? lacking / control.value : lacking);
-    } else if (std::isnan(result.driven)) {
+    } else if (&control == driven_planes(*simulation.stage())) {
       result.driven = stress;
     }
   }
@@ -44,11 +68,7 @@ bool reached(const StageGoal& goal, const Simulation& simulation, const Measurem
     if (!touching || !(measurement.unbalanced_ratio < *goal.unbalanced_ratio)) return false;
   }
   if (goal.stress_error && !(stresses.largest_error <= *goal.stress_error)) return false;
-  if (goal.strain) {
-    const Vec3& strain = sample.strain;
-    const double largest = std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)});
-    if (!(largest >= *goal.strain)) return false;
-  }
+  if (goal.strain && !(strain_since_start(simulation, sample) >= *goal.strain)) return false;
   if (goal.stress_above && !(stresses.driven > *goal.stress_above)) return false;
   if (goal.stress_below && !(stresses.driven < *goal.stress_below)) return false;
   if (goal.void_ratio && !(sample.enclosed && sample.void_ratio <= *goal.void_ratio)) return false;

@@ -5,26 +5,37 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "reckon/core/exact_sum.hpp"
 #include "reckon/math/portable.hpp"
 
 namespace reckon {
 
-std::vector<WallId> planes_named(std::span<const Wall> walls, std::string_view name) {
-  std::vector<WallId> found;
+std::vector<std::vector<WallId>> planes_named(std::span<const Wall> walls, std::string_view name) {
   const auto find = [&](const std::string& wanted) {
+    std::vector<WallId> found;
     for (std::uint32_t w = 0; w < walls.size(); ++w) {
       const bool is_plane = std::holds_alternative<PlaneSurface>(walls[w].surface);
       if (walls[w].name == wanted && is_plane) found.push_back(WallId{w});
     }
+    return found;
   };
-  find(std::string{name});
-  if (!found.empty()) return found;
-  find(std::string{name} + "-");
-  find(std::string{name} + "+");
-  if (found.size() != 2) found.clear();
-  return found;
+  const auto find_pair = [&](const std::string& wanted) {
+    std::vector<WallId> found = find(wanted + "-");
+    const std::vector<WallId> high = find(wanted + "+");
+    found.insert(found.end(), high.begin(), high.end());
+    return found;
+  };
+  const std::string wanted{name};
+  if (const auto plane = find(wanted); !plane.empty()) return {plane};
+  if (const auto pair = find_pair(wanted); pair.size() == 2) return {pair};
+  std::vector<std::vector<WallId>> box;
+  for (const char* axis : {".x", ".y", ".z"}) {
+    if (auto pair = find_pair(wanted + axis); pair.size() == 2) box.push_back(std::move(pair));
+  }
+  if (box.size() != 3) box.clear();
+  return box;
 }
 
 double mean_diameter(std::span<const GrainState> grains, std::span<const ShapeSummary> shapes) {
@@ -68,12 +79,14 @@ std::vector<StageSetup> make_stages(const SceneConfig& scene, std::span<const Wa
       stage.wall_friction.push_back(config.wall_friction.value_or(wall.friction));
     }
     for (const ControlConfig& control : config.controls) {
-      stage.controls.push_back({.name = control.wall,
-                                .walls = planes_named(walls, control.wall),
-                                .target = control.target,
-                                .value = control.value,
-                                .gain = control.gain,
-                                .rate_limit = control.rate_limit.value_or(0)});
+      for (auto& planes : planes_named(walls, control.wall)) {
+        stage.controls.push_back({.name = control.wall,
+                                  .walls = std::move(planes),
+                                  .target = control.target,
+                                  .value = control.value,
+                                  .gain = control.gain,
+                                  .rate_limit = control.rate_limit.value_or(0)});
+      }
     }
     stages.push_back(std::move(stage));
   }

@@ -13,8 +13,10 @@
 
 namespace reckon {
 
-/// The planes that a control's `wall` names: one, or two sides of a box; none when there are no such.
-[[nodiscard]] std::vector<WallId> planes_named(std::span<const Wall> walls, std::string_view name);
+/// The planes that a control's `wall` names, grouped as they move together: one plane, two sides of a
+/// box, or all six as three pairs. None when there are no such.
+[[nodiscard]] std::vector<std::vector<WallId>> planes_named(std::span<const Wall> walls,
+                                                            std::string_view name);
 
 /// The volume-weighted mean diameter of spheres as large as the grains [m].
 [[nodiscard]] double mean_diameter(std::span<const GrainState> grains,

@@ -79,9 +79,7 @@ friction = 0.1
 gravity = [0, 0, 0]
 damping = 200
 history_interval = 20
-control = [{ wall = "box.x", stress = "200 kPa", rate_limit = 150 },
-           { wall = "box.y", stress = "200 kPa", rate_limit = 150 },
-           { wall = "box.z+", stress = "200 kPa", rate_limit = 150 }]
+control = [{ wall = "box", stress = "200 kPa", rate_limit = 150 }]
 [[stage]]
 name = "shear"
 steps = 333
