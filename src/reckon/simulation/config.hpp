@@ -28,12 +28,14 @@ struct MaterialConfig {
   double friction{0.5};  ///< Coulomb coefficient between grains, >= 0
 };
 
-enum class ContactLawKind { linear, area };
+enum class ContactLawKind { linear, area, hertz };
 /// How touching nodes push. See algorithms in docs/theory.
 struct ContactConfig {
   ContactLawKind law{ContactLawKind::area};
   double normal_stiffness{0};  ///< linear: k_n [N/m] per node; area: k_n [N/m^3]; > 0, no default
   double shear_stiffness{0};   ///< same unit; > 0; io defaults it to 0.9 k_n
+  double young_modulus{0};     ///< hertz: of the grains [Pa], > 0, no default
+  double poisson_ratio{0.2};   ///< hertz: of the grains, in [0, 0.5]
   std::optional<double> restitution;  ///< in (0, 1): adds a normal dashpot; absent: none
   double viscosity{0};                ///< area: a further normal dashpot per area [N s/m^3], >= 0
   std::optional<std::uint32_t>

@@ -13,11 +13,16 @@ namespace {
 
 /// The node cap belongs to pairs of grains: the published code does not apply it to walls.
 AnyContactLaw make_law(const ContactConfig& contact, double normal_stiffness,
-                       double shear_stiffness, bool dashpot, std::uint32_t node_cap) {
+                       double shear_stiffness, bool dashpot, std::uint32_t node_cap,
+                       bool rigid_wall) {
   const bool damped = dashpot && contact.restitution.has_value();
   if (contact.law == ContactLawKind::linear) {
     return LinearLaw{normal_stiffness, shear_stiffness,
                      damped ? linear_dashpot_factor(*contact.restitution) : 0, node_cap};
+  }
+  if (contact.law == ContactLawKind::hertz) {
+    return hertz_law(contact.young_modulus, contact.poisson_ratio, rigid_wall,
+                     damped ? hertz_dashpot_factor(*contact.restitution) : 0);
   }
   return AreaLaw{normal_stiffness, shear_stiffness,
                  damped ? area_dashpot_factor(*contact.restitution) : 0,
@@ -51,9 +56,9 @@ std::vector<std::pair<std::string, WallSurface>> surfaces(const WallConfig& wall
 std::vector<Wall> make_walls(const SceneConfig& scene) {
   std::vector<Wall> walls;
   for (const WallConfig& config : scene.walls) {
-    const AnyContactLaw law =
-        make_law(scene.contact, config.normal_stiffness.value_or(scene.contact.normal_stiffness),
-                 config.shear_stiffness.value_or(scene.contact.shear_stiffness), config.dashpot, 0);
+    const AnyContactLaw law = make_law(
+        scene.contact, config.normal_stiffness.value_or(scene.contact.normal_stiffness),
+        config.shear_stiffness.value_or(scene.contact.shear_stiffness), config.dashpot, 0, true);
     for (const auto& [suffix, surface] : surfaces(config)) {
       walls.push_back({config.name + suffix, surface, law,
                        config.friction.value_or(scene.material.friction), config.shortened_lever,
@@ -92,7 +97,7 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
       .density = config.material.density,
       .contact = {make_law(config.contact, config.contact.normal_stiffness,
                            config.contact.shear_stiffness, true,
-                           config.contact.node_cap.value_or(0)),
+                           config.contact.node_cap.value_or(0), false),
                   config.material.friction, config.contact.master},
       .walls = make_walls(config),
       .outflows = outflow_planes(config),
