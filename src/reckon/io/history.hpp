@@ -45,7 +45,7 @@ struct HistoryRow {
 
 /// One row, without the end of the line. Numbers are written so that they read back as the same
 /// bits.
-[[nodiscard]] std::string history_row(const HistoryRow& row);
+[[nodiscard]] std::string history_row(const HistoryRow& told);
 
 /// history.csv of a run under way. Each row is handed to the system in one piece, so a killed run
 /// leaves whole rows.

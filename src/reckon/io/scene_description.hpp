@@ -256,11 +256,13 @@ void describe(Visitor& v, OutputConfig& output) {
              .unit_note = "steps",
              .meaning = "Steps between ParaView files; 0: only start and end."},
             output.fields_interval);
-  v.flag(
-      {.name = "sample",
-       .meaning = "Adds columns to history.csv for stress, strain, void ratio, fabric and forces "
-                  "of the sample between the walls."},
-      output.sample);
+  if (v.visits(output.sample)) {  // not written when off: runs from before it go on
+    v.flag(
+        {.name = "sample",
+         .meaning = "Adds columns to history.csv for stress, strain, void ratio, fabric and forces "
+                    "of the sample between the walls."},
+        output.sample);
+  }
   v.flag({.name = "contacts", .meaning = "Writes contacts as lines beside the grains."},
          output.contacts);
   v.flag({.name = "surfaces", .meaning = "Writes the grains' true surfaces beside the grains."},

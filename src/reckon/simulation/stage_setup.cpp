@@ -17,7 +17,7 @@ std::vector<std::vector<WallId>> planes_named(std::span<const Wall> walls, std::
     std::vector<WallId> found;
     for (std::uint32_t w = 0; w < walls.size(); ++w) {
       const bool is_plane = std::holds_alternative<PlaneSurface>(walls[w].surface);
-      if (walls[w].name == wanted && is_plane) found.push_back(WallId{w});
+      if (walls[w].name == wanted && is_plane) found.emplace_back(w);
     }
     return found;
   };
