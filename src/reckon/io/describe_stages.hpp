@@ -85,7 +85,7 @@ void describe(Visitor& v, StageGoal& goal) {
   v.number({.name = "stress_above",
             .unit = "Pa",
             .standard = "not asked",
-            .meaning = "The stress on the walls that are moved by `strain_rate` or `speed` is above "
+            .meaning = "The stress on the first planes moved by `strain_rate` or `speed` is above "
                        "this."},
            goal.stress_above);
   v.number({.name = "stress_below",

@@ -37,7 +37,8 @@ void StageCheck::check_control(const ControlConfig& control, const std::string& 
     planes.insert(planes.end(), group.begin(), group.end());
   }
   if (planes.empty()) {
-    return fault_(key + ".wall", fmt::format("no plane or pair of planes is named \"{}\"", control.wall),
+    return fault_(key + ".wall",
+                  fmt::format("no plane or pair of planes is named \"{}\"", control.wall),
                   known_planes());
   }
   for (const WallId plane : planes) {

@@ -20,10 +20,10 @@ const WallControl* driven_planes(const StageSetup& stage) {
   return nullptr;
 }
 
-/// Along the driven planes, or of the axis where it is largest if there are none.
+/// The largest along driven planes, or of an axis if there are none.
 double strain_since_start(const Simulation& simulation, const SampleMeasurement& sample) {
-  const WallControl* driven = driven_planes(*simulation.stage());
-  if (driven == nullptr) {
+  const StageSetup& stage = *simulation.stage();
+  if (driven_planes(stage) == nullptr) {
     const Vec3& strain = sample.strain;
     return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)});
   }
@@ -31,26 +31,31 @@ double strain_since_start(const Simulation& simulation, const SampleMeasurement&
   const auto start = enclosure_of(walls, simulation.poses_at_stage_start());
   const auto now = enclosure_of(walls, simulation.wall_contacts().poses());
   if (!start || !now) return 0;
-  return std::abs(portable::log(length_along(*driven, *start) / length_along(*driven, *now)));
+  double largest = 0;
+  for (const WallControl& control : stage.controls) {
+    if (control.target == WallTarget::stress) continue;
+    const double change = length_along(control, *start) / length_along(control, *now);
+    largest = std::max(largest, std::abs(portable::log(change)));
+  }
+  return largest;
 }
 
 struct WallStresses {
-  double largest_error{0};  // of the servos, relative
+  double largest_error{0};                                  // of the servos, relative
   double driven{std::numeric_limits<double>::quiet_NaN()};  // on the first driven planes [Pa]
 };
 
 WallStresses wall_stresses(const Simulation& simulation) {
   WallStresses result;
-  const auto space =
-      enclosure_of(simulation.setup().walls, simulation.wall_contacts().poses());
+  const auto space = enclosure_of(simulation.setup().walls, simulation.wall_contacts().poses());
   const std::vector<WallReaction> reactions = simulation.wall_reactions();
   if (!space) return {std::numeric_limits<double>::infinity(), result.driven};
   for (const WallControl& control : simulation.stage()->controls) {
     const double stress = stress_on(control, reactions, *space);
     if (control.target == WallTarget::stress) {
       const double lacking = std::abs(stress - control.value);
-      result.largest_error = std::max(
-          result.largest_error, control.value > 0 ? lacking / control.value : lacking);
+      result.largest_error =
+          std::max(result.largest_error, control.value > 0 ? lacking / control.value : lacking);
     } else if (&control == driven_planes(*simulation.stage())) {
       result.driven = stress;
     }

@@ -32,8 +32,7 @@ std::string in_words(const ControlConfig& control) {
 std::vector<StagePlan> plan_stages(const LoadedScene& scene, double time_step) {
   std::vector<StagePlan> plans;
   const SceneConfig& config = scene.config;
-  const double diameter =
-      config.stages.empty() ? 0 : mean_diameter(scene.grains, scene.shapes);
+  const double diameter = config.stages.empty() ? 0 : mean_diameter(scene.grains, scene.shapes);
   double held = 0;  // the last stress that is known [Pa]
   for (const StageConfig& stage : config.stages) {
     StagePlan plan{.name = stage.name,
@@ -60,16 +59,15 @@ std::vector<StagePlan> plan_stages(const LoadedScene& scene, double time_step) {
 std::vector<std::string> stage_lines(const StagePlan& plan, double time_step) {
   std::vector<std::string> lines{
       fmt::format("{}: {}{} steps ({:.4g} s); {}", plan.name, plan.has_goal ? "at most " : "",
-                  human_count(plan.most_steps),
-                  static_cast<double>(plan.most_steps) * time_step,
+                  human_count(plan.most_steps), static_cast<double>(plan.most_steps) * time_step,
                   plan.controls.empty() ? "walls stand" : plan.controls)};
   if (plan.pace) {
     const StagePlan::Pace& pace = *plan.pace;
     const bool slow = pace.inertial_number <= quasi_static_inertial_number;
-    lines.push_back(fmt::format(
-        "inertial number {:.2g} at {:.4g} Pa: {}; {} makes {:.3g} 1/s", pace.inertial_number,
-        pace.stress, slow ? "quasi-static" : "TOO FAST to count as quasi-static",
-        quasi_static_inertial_number, pace.advised_rate));
+    lines.push_back(fmt::format("inertial number {:.2g} at {:.4g} Pa: {}; {} makes {:.3g} 1/s",
+                                pace.inertial_number, pace.stress,
+                                slow ? "quasi-static" : "TOO FAST to count as quasi-static",
+                                quasi_static_inertial_number, pace.advised_rate));
   }
   return lines;
 }

@@ -60,8 +60,9 @@ std::string axial(const Columns& columns, std::size_t last_row) {
 double disagreement(const Columns& columns, std::size_t row) {
   double largest = 0;
   for (const char* component : tensor) {
-    largest = std::max(largest, std::abs(columns.at(row, fmt::format("stress_{}_Pa", component)) -
-                                         columns.at(row, fmt::format("wall_stress_{}_Pa", component))));
+    largest =
+        std::max(largest, std::abs(columns.at(row, fmt::format("stress_{}_Pa", component)) -
+                                   columns.at(row, fmt::format("wall_stress_{}_Pa", component))));
   }
   return largest / columns.at(row, "mean_stress_Pa");
 }
@@ -72,7 +73,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-std::string paragraph(const std::string& name, const Columns& columns,
+/// `free_volume`: some walls give way, so that dilatancy means something.
+std::string paragraph(const std::string& name, bool free_volume, const Columns& columns,
                       const std::vector<std::size_t>& rows) {
   const std::string strain = axial(columns, rows.back());
   std::vector<ShearPoint> curve;
@@ -86,23 +88,27 @@ std::string paragraph(const std::string& name, const Columns& columns,
   }
   const auto summary = summarize(curve);
   if (!summary) return {};
-  std::string text = fmt::format(
-      "  {}: peak friction angle {:.1f} deg at {:.2f} % strain, dilatancy angle there {:.1f} deg\n",
-      name, summary->peak_friction_angle, 100 * summary->strain_at_peak, summary->dilatancy_angle);
-  text += fmt::format(
-      "    at {:.1f} % strain: friction angle {:.1f} deg, dilatancy angle {:.1f} deg, void ratio "
-      "{:.3f}\n",
-      100 * curve.back().axial_strain, summary->final_friction_angle,
-      summary->final_dilatancy_angle, columns.at(rows.back(), "void_ratio"));
+  const auto dilatancy = [&](const char* words, double angle) {
+    return free_volume ? fmt::format("{}{:.1f} deg", words, angle) : std::string{};
+  };
+  std::string text = fmt::format("  {}: peak friction angle {:.1f} deg at {:.2f} % strain{}\n",
+                                 name, summary->peak_friction_angle, 100 * summary->strain_at_peak,
+                                 dilatancy(", dilatancy angle there ", summary->dilatancy_angle));
+  text += fmt::format("    at {:.1f} % strain: friction angle {:.1f} deg{}, void ratio {:.3f}\n",
+                      100 * curve.back().axial_strain, summary->final_friction_angle,
+                      dilatancy(", dilatancy angle ", summary->final_dilatancy_angle),
+                      columns.at(rows.back(), "void_ratio"));
   text += fmt::format(
       "    stress by contacts and by walls: {:.2g} % apart in the median row, {:.2g} % at most\n",
-      100 * median(disagreements), 100 * *std::max_element(disagreements.begin(), disagreements.end()));
+      100 * median(disagreements),
+      100 * *std::max_element(disagreements.begin(), disagreements.end()));
   const double inertial_number = median(inertial_numbers);
-  text += fmt::format("    inertial number {:.1g}{}\n", inertial_number,
-                      inertial_number > quasi_static_inertial_number
-                          ? fmt::format(": too fast to count as quasi-static (above {}); lower the rate",
-                                        quasi_static_inertial_number)
-                          : ": quasi-static");
+  text += fmt::format(
+      "    inertial number {:.1g}{}\n", inertial_number,
+      inertial_number > quasi_static_inertial_number
+          ? fmt::format(": too fast to count as quasi-static (above {}); lower the rate",
+                        quasi_static_inertial_number)
+          : ": quasi-static");
   return text;
 }
 
@@ -126,16 +132,16 @@ std::string stage_report(const SceneConfig& scene, const HistoryTable& history) 
   std::string text;
   for (std::size_t n = 0; n < scene.stages.size(); ++n) {
     const auto& controls = scene.stages[n].controls;
-    const bool drives = std::any_of(controls.begin(), controls.end(), [](const ControlConfig& c) {
-      return c.target != WallTarget::stress;
+    const auto held = std::count_if(controls.begin(), controls.end(), [](const ControlConfig& c) {
+      return c.target == WallTarget::stress;
     });
-    if (!drives) continue;
+    if (static_cast<std::size_t>(held) == controls.size()) continue;
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < history.rows.size(); ++row) {
       const bool known = columns.at(row, "mean_stress_Pa") > 0;
       if (known && columns.at(row, "stage") == static_cast<double>(n + 1)) rows.push_back(row);
     }
-    if (!rows.empty()) text += paragraph(scene.stages[n].name, columns, rows);
+    if (!rows.empty()) text += paragraph(scene.stages[n].name, held > 0, columns, rows);
   }
   return text;
 }
