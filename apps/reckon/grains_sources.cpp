@@ -281,11 +281,32 @@ void add_generate(CLI::App& grains) {
   });
 }
 
+void add_spheres(CLI::App& grains) {
+  CLI::App* command = grains.add_subcommand(
+      "spheres", "The equivalent spheres of a library: one per grain, of the same name and volume");
+  command->footer(
+      "Scenes that take one library or the other place the same masses of grains; their difference\n"
+      "is what shape does.\n\nExample:\n  reckon grains spheres sand.h5 -o spheres.h5");
+  auto library = std::make_shared<std::string>();
+  command->add_option("library", *library, "Shape library (.h5) or legacy folder")->required();
+  const auto options = add_make_options(*command);
+  command->callback([=] {
+    const LibrarySource grains_of{*library};
+    std::vector<ShapeSource> sources;
+    for (std::size_t n = 0; n < grains_of.size(); ++n) {
+      const ShapeSummary shape = grains_of.summary(n);
+      sources.push_back(equal_sphere_source(shape.name, shape.outline.mass.volume));
+    }
+    make(sources, *options);
+  });
+}
+
 }  // namespace
 
 void add_grains_sources(CLI::App& grains) {
   add_generate(grains);
   add_solid(grains);
+  add_spheres(grains);
   add_from_files(grains, "from-mesh", "Grains from closed surfaces: STL, OBJ or PLY files",
                  "reckon grains from-mesh scans/*.stl --unit mm -o scans.h5",
                  [](const std::string& file, double unit) { return mesh_file_source(file, unit); });

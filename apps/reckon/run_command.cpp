@@ -68,7 +68,7 @@ void print_result(const RunReport& report, const std::filesystem::path& folder) 
     fmt::print(", {:.2g} of the energy turned over",
                std::abs(report.energy_error) / report.energy_turnover);
   }
-  fmt::print("\n{}", report.performance);
+  fmt::print("\n{}{}", report.stages, report.performance);
   fmt::print("  tables    {}\n  ParaView  {}\n", (folder / "history.csv").string(),
              (folder / "grains.pvd").string());
 }

@@ -174,7 +174,8 @@ TEST(Engines, AgreeOnFastSpin) { expect_equal_engines(fast_spin(), 2000); }
 
 TEST(Engines, AgreeWithEveryMasterRuleAndLaw) {
   for (const MasterRule master : {MasterRule::lower_id, MasterRule::smaller, MasterRule::both}) {
-    for (const AnyContactLaw& law : {AnyContactLaw{area_law()}, AnyContactLaw{linear_law()}}) {
+    for (const AnyContactLaw& law : {AnyContactLaw{area_law()}, AnyContactLaw{linear_law()},
+                                     AnyContactLaw{hertz_law(1e7, 0.2, false, 0.2)}}) {
       Scene scene = sheared_box(law);
       scene.setup.contact.master = master;
       expect_equal_engines(scene, 600);

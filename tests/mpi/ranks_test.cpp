@@ -1,17 +1,19 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // One simulation on all ranks of this mpirun against the same on one rank, bit by bit:
-//   ranks_test DECOMPOSITION STEPS THREADS SIMD
+//   ranks_test DECOMPOSITION STEPS THREADS SIMD [pressed]
 // The one rank tests every node of every pair at every step. Where the machine lacks the
 // instructions that SIMD names, its widest are taken. The scene is a box of grains of two sizes,
-// thrown down, shaken and sheared by moving walls. It is stopped half-way and goes on from its
-// state, as a restart does.
+// thrown down, shaken and sheared by moving walls; `pressed` closes the box and drives its walls by
+// stress and strain rate, in two stages. It is stopped half-way and goes on from its state, as a
+// restart does.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "reckon/analysis/sample.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "reckon/simulation/placement.hpp"
@@ -45,6 +47,29 @@ SimulationSetup shaken_box(std::shared_ptr<const ShapeLibrary> shapes) {
   return setup;
 }
 
+/// The box with a lid: the grains are pressed from all sides to 20 kPa, then along z at a steady
+/// rate.
+SimulationSetup pressed_box(std::shared_ptr<const ShapeLibrary> shapes) {
+  SimulationSetup setup = shaken_box(std::move(shapes));
+  for (Wall& wall : setup.walls) wall.motion.reset();
+  setup.walls.push_back(
+      {"z+", PlaneSurface{{5, 5, 28}, {0, 0, -1}}, setup.walls[0].law, 0.3, false, {}});
+  for (const char* name : {"press", "shear"}) {
+    StageSetup stage{
+        .name = name, .friction = 0.2, .wall_friction = {0, 0, 0, 0, 0, 0}, .damping = 1};
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      stage.controls.push_back({.name = "axis",
+                                .walls = {WallId{2 * axis}, WallId{2 * axis + 1}},
+                                .value = 2e4,
+                                .rate_limit = 4});
+    }
+    setup.stages.push_back(std::move(stage));
+  }
+  setup.stages[1].controls[2].target = WallTarget::strain_rate;
+  setup.stages[1].controls[2].value = 1;
+  return setup;
+}
+
 SimulationState thrown_grains(const ShapeLibrary& shapes) {
   FillPlacement fill;
   fill.count = 60;
@@ -58,6 +83,7 @@ SimulationState thrown_grains(const ShapeLibrary& shapes) {
 struct Outcome {
   SimulationState state;
   Measurement measurement;
+  SampleMeasurement sample;
   std::vector<ContactRecord> contacts;
   std::uint64_t migrated{0};
 };
@@ -68,6 +94,7 @@ Outcome run(const SimulationSetup& setup, SimulationState state, const Communica
   for (int half = 0; half < 2; ++half) {
     if (!ranks.is_root()) state = {};
     Simulation simulation{setup, state, ranks};
+    if (half == 1 && simulation.stage() != nullptr) simulation.begin_next_stage();
     for (int n = 0; n < steps / 2; ++n) {
       simulation.step();
       if (n % 100 == 0) outcome.measurement = simulation.measure();
@@ -75,6 +102,7 @@ Outcome run(const SimulationSetup& setup, SimulationState state, const Communica
     state = simulation.state();
     outcome.measurement = simulation.measure();
     outcome.contacts = simulation.contacts();
+    outcome.sample = measure_sample(simulation);
     outcome.migrated += simulation.distribution().counters().migrated_grains;
   }
   outcome.state = state;
@@ -94,6 +122,8 @@ int compare(const Outcome& found, const Outcome& expected) {
          "springs");
   expect(found.measurement == expected.measurement, "measurement");
   expect(found.contacts == expected.contacts, "contacts");
+  expect(found.state == expected.state, "state");
+  expect(found.sample == expected.sample, "sample");
   expect(expected.state.pair_springs.size() > 15, "too few contacts to tell");
   return failures;
 }
@@ -113,20 +143,25 @@ SimdLevel simd_named(const std::string& name) {
 }
 
 int test(const Communicator& world, const std::string& decomposition, int steps,
-         const std::string& simd) {
+         const std::string& simd, bool pressed) {
   const auto shapes =
       testing::library_of({testing::bumpy_grain(1.0, 200, 16), testing::bumpy_grain(0.7, 150, 16)});
-  SimulationSetup setup = shaken_box(shapes);
+  const auto make = pressed ? pressed_box : shaken_box;
+  SimulationSetup setup = make(shapes);
   setup.decomposition = decomposition_named(decomposition);
   setup.simd = simd_named(simd);
   const Outcome found = run(setup, thrown_grains(*shapes), world, steps);
   std::int64_t migrated = static_cast<std::int64_t>(found.migrated);
   world.sum({&migrated, 1});
   if (!world.is_root()) return 0;
-  setup = shaken_box(shapes);
+  setup = make(shapes);
   setup.engine = ContactEngine::plain;
   const Outcome expected = run(setup, thrown_grains(*shapes), {}, steps);
   const int failures = compare(found, expected);
+  if (pressed) {
+    std::printf("pressed to (%.0f, %.0f, %.0f) Pa: ", expected.sample.stress.row_x.x,
+                expected.sample.stress.row_y.y, expected.sample.stress.row_z.z);
+  }
   std::printf("%s, %s on %d ranks: %zu touching pairs, %lld grains migrated, %s\n",
               decomposition.c_str(), std::string{name_of(simd_named(simd))}.c_str(), world.size(),
               expected.state.pair_springs.size(), static_cast<long long>(migrated),
@@ -139,10 +174,11 @@ int test(const Communicator& world, const std::string& decomposition, int steps,
 
 int main(int argc, char** argv) {
   const reckon::ParallelSession session{argc, argv};
-  if (argc != 5) return 2;
+  if (argc != 5 && argc != 6) return 2;
   reckon::set_thread_count(std::atoi(argv[3]));
   try {
-    return reckon::test(session.world(), argv[1], std::atoi(argv[2]), argv[4]) == 0 ? 0 : 1;
+    return reckon::test(session.world(), argv[1], std::atoi(argv[2]), argv[4], argc == 6) == 0 ? 0
+                                                                                               : 1;
   } catch (const reckon::Error& error) {
     std::fprintf(stderr, "rank %d: %s\n", session.world().rank(), error.what());
     session.world().abort(1);

@@ -73,6 +73,18 @@ TEST_F(MpiRun, LeavesTheFilesOfOneRank) {
   }
 }
 
+TEST_F(MpiRun, StagesLeaveTheFilesOfOneRankWhateverRanksTheyGoOnWith) {
+  write("staged.toml", staged());
+  ASSERT_EQ(reckon(1, {"run", "staged.toml", "--out", "one"}).code, 0);
+  ASSERT_EQ(reckon(3, {"run", "staged.toml", "--out", "three"}).code, 0);
+  expect_equal_folders(root_ / "three", root_ / "one");
+  ASSERT_EQ(reckon(3, {"run", "staged.toml", "--out", "parts", "--steps", "411"}).code, 0);
+  ASSERT_EQ(reckon(2, {"run", "staged.toml", "--out", "parts", "--steps", "800", "--resume"}).code,
+            0);
+  ASSERT_EQ(reckon(4, {"run", "staged.toml", "--out", "parts", "--resume"}).code, 0);
+  expect_equal_folders(root_ / "parts", root_ / "one");
+}
+
 TEST_F(MpiRun, GoesOnWithAnotherNumberOfRanks) {
   ASSERT_EQ(reckon(1, {"run", "scene.toml", "--out", "whole"}).code, 0);
   ASSERT_EQ(reckon(3, {"run", "scene.toml", "--out", "parts", "--steps", "170"}).code, 0);

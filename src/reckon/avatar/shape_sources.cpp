@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "reckon/avatar/analytic.hpp"
 #include "reckon/avatar/geodesic_sphere.hpp"
 #include "reckon/avatar/level_set_text.hpp"
 #include "reckon/avatar/mesh_reader.hpp"
@@ -86,6 +87,12 @@ ShapeSource solid_source(std::string name, double extent,
             const double diameter = diameter_of(mesh(coarse_edge));
             return mesh(std::min(coarse_edge, edge_for(resolution, diameter)));
           }};
+}
+
+ShapeSource equal_sphere_source(std::string name, double volume) {
+  const double radius = portable::cbrt(volume / (4.0 / 3 * std::numbers::pi));
+  return solid_source(std::move(name), 2 * radius,
+                      [radius](double edge) { return sphere_mesh(radius, edge); });
 }
 
 ShapeSource generated_source(const GrainStatistics& statistics, std::uint64_t seed,

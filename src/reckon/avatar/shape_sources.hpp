@@ -42,6 +42,8 @@ struct ShapeSource {
 /// An analytic solid: `mesh` makes it for a target edge [m], `extent` is its largest length [m].
 [[nodiscard]] ShapeSource solid_source(std::string name, double extent,
                                        std::function<TriangleMesh(double target_edge)> mesh);
+/// The sphere of this volume [m^3].
+[[nodiscard]] ShapeSource equal_sphere_source(std::string name, double volume);
 /// Grain `index` of a generated population.
 [[nodiscard]] ShapeSource generated_source(const GrainStatistics& statistics, std::uint64_t seed,
                                            std::uint64_t index);

@@ -22,4 +22,16 @@ WallPose pose_at(const Wall& wall, std::uint64_t step, double time_step) {
   return {now, (now - before) / time_step};
 }
 
+std::vector<WallPose> poses_at(std::span<const Wall> walls, std::span<const DrivenWall> driven,
+                               std::uint64_t step, double time_step) {
+  std::vector<WallPose> poses;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    poses.push_back(pose_at(walls[w], step, time_step));
+    if (driven.empty()) continue;
+    poses.back().displacement += driven[w].displacement;
+    poses.back().velocity += driven[w].velocity;
+  }
+  return poses;
+}
+
 }  // namespace reckon

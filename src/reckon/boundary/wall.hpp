@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "reckon/contact/contact_settings.hpp"
 #include "reckon/math/vec3.hpp"
@@ -71,5 +73,18 @@ struct WallPose {
   Vec3 velocity;      ///< over the last step, as grains' velocities are [m/s]
 };
 [[nodiscard]] WallPose pose_at(const Wall& wall, std::uint64_t step, double time_step);
+
+/// What a control (boundary/wall_control.hpp) has made of one wall so far, on top of its motion.
+struct DrivenWall {
+  Vec3 displacement;                 ///< since time zero [m]
+  Vec3 velocity;                     ///< over the last step [m/s]
+  Vec3 displacement_at_stage_start;  ///< [m]
+
+  friend bool operator==(const DrivenWall&, const DrivenWall&) = default;
+};
+/// All walls at one step. `driven` is one per wall, or empty.
+[[nodiscard]] std::vector<WallPose> poses_at(std::span<const Wall> walls,
+                                             std::span<const DrivenWall> driven,
+                                             std::uint64_t step, double time_step);
 
 }  // namespace reckon

@@ -15,7 +15,8 @@
 namespace reckon {
 namespace {
 
-WallForce force_of(const DirectedForce& directed, const Vec3& wall_velocity, double time_step) {
+WallForce force_of(const DirectedForce& directed, const Mat3& first_moment,
+                   const Vec3& wall_velocity, double time_step) {
   return {directed.force,
           directed.moment_master,
           directed.deepest,
@@ -23,14 +24,21 @@ WallForce force_of(const DirectedForce& directed, const Vec3& wall_velocity, dou
           directed.friction,
           directed.dashpot,
           dot(directed.force, wall_velocity) * time_step,
+          directed.stiffness,
+          directed.damping,
+          first_moment,
           directed.touching};
 }
 
 }  // namespace
 
-void WallContacts::move_walls(std::uint64_t step, double time_step) {
-  poses_.resize(walls_.size());
-  for (std::size_t w = 0; w < walls_.size(); ++w) poses_[w] = pose_at(walls_[w], step, time_step);
+void WallContacts::move_walls(std::span<const DrivenWall> driven, std::uint64_t step,
+                              double time_step) {
+  poses_ = poses_at(walls_, driven, step, time_step);
+}
+
+void WallContacts::set_friction(std::span<const double> friction) {
+  for (std::size_t w = 0; w < walls_.size(); ++w) walls_[w].friction = friction[w];
 }
 
 void WallContacts::rebuild(std::span<const GrainFrame> frames, const MotionBudget& budget) {
@@ -92,9 +100,11 @@ double WallContacts::evaluate_candidate(std::size_t c, const GrainFrame& grain, 
     const RigidMotion wall_motion{grain.position, poses_[w].velocity, {}};
     std::visit(
         [&](const auto& law) {
-          forces_[c] = force_of(respond(law, context, grain.position, grain_motion, wall_motion,
-                                        touches, old_springs, *grain.shape, false, 1, arena),
-                                poses_[w].velocity, time_step);
+          Mat3 first_moment;
+          const DirectedForce directed =
+              respond(law, context, grain.position, grain_motion, wall_motion, touches, old_springs,
+                      *grain.shape, false, 1, arena, &first_moment);
+          forces_[c] = force_of(directed, first_moment, poses_[w].velocity, time_step);
         },
         walls_[w].law);
   });

@@ -19,13 +19,17 @@ namespace reckon {
 
 /// What one wall does to one grain at the current step.
 struct WallForce {
-  Vec3 force;          ///< on the grain [N]
-  Vec3 moment;         ///< about its centre of mass [N m]
-  double deepest{0};   ///< [m]
-  double elastic{0};   ///< stored [J]
-  double friction{0};  ///< lost in this step [J]
-  double dashpot{0};   ///< lost in this step [J]
-  double work{0};      ///< done on the grain by the moving wall in this step [J]
+  Vec3 force;           ///< on the grain [N]
+  Vec3 moment;          ///< about its centre of mass [N m]
+  double deepest{0};    ///< [m]
+  double elastic{0};    ///< stored [J]
+  double friction{0};   ///< lost in this step [J]
+  double dashpot{0};    ///< lost in this step [J]
+  double work{0};       ///< done on the grain by the moving wall in this step [J]
+  double stiffness{0};  ///< of all touching nodes, along the normal [N/m]
+  double damping{0};    ///< likewise [N s/m]
+  /// Sum of the nodes' forces times their levers about the centre of mass, f (x) l [N m].
+  Mat3 first_moment{Vec3{}, Vec3{}, Vec3{}};
   std::uint32_t touching{0};
 };
 
@@ -45,8 +49,11 @@ class WallContacts {
   explicit WallContacts(std::vector<Wall> walls, ContactEngine engine = ContactEngine::near)
       : walls_{std::move(walls)}, engine_{engine}, travelled_(walls_.size(), 0.0) {}
 
-  /// Places the walls for one step. To be called before rebuild and evaluate.
-  void move_walls(std::uint64_t step, double time_step);
+  /// Places the walls for one step; `driven` as for poses_at. To be called before rebuild and
+  /// evaluate.
+  void move_walls(std::span<const DrivenWall> driven, std::uint64_t step, double time_step);
+  /// Sets the Coulomb coefficient of every wall, in their order.
+  void set_friction(std::span<const double> friction);
   /// Lists the grains that can meet a wall before they or it used up their budgets.
   void rebuild(std::span<const GrainFrame> frames, const MotionBudget& budget);
   /// `meter` has followed these frames, slot by slot; the plain engine does not look at it.

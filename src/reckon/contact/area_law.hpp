@@ -14,7 +14,6 @@ namespace reckon {
 ///
 ///   F_n = -k_n A phi grad(phi)      F_s: Coulomb spring with k_s A, |F_s| <= mu |F_n|
 ///
-///
 /// The gradient is that of the interpolant, not normalised: the normal force is then minus the
 /// derivative of the energy k_n A phi^2 / 2, and a frictionless collision loses nothing.
 ///
@@ -35,11 +34,9 @@ struct AreaLaw {
     const double steepness = norm(touch.gradient_world);
     const double elastic_push = -normal_stiffness * touch.area * touch.phi * steepness;
     const double approach = dot(normal, velocity);
-    const double pair_dashpot =
-        dashpot_factor * std::sqrt(context.effective_mass * normal_stiffness * context.total_area);
     const double share =
         context.total_volume > 0 ? -touch.area * touch.phi / context.total_volume : 0;
-    const double gamma = pair_dashpot * share + viscosity * touch.area;
+    const double gamma = pair_dashpot(context) * share + viscosity * touch.area;
     const double push = std::max(elastic_push - gamma * approach, 0.0);
     const double stiffness = shear_stiffness * touch.area;
     CoulombSlider shear =
@@ -54,8 +51,22 @@ struct AreaLaw {
 
   [[nodiscard]] double pair_scale(const PairContext& /*context*/) const { return 1.0; }
 
+  [[nodiscard]] double pair_stiffness(const PairContext& context) const {
+    return normal_stiffness * context.total_area;
+  }
+
+  [[nodiscard]] double pair_damping(const PairContext& context) const {
+    return pair_dashpot(context) + viscosity * context.total_area;
+  }
+
   [[nodiscard]] double stored_shear_energy(const Vec3& spring, double area) const {
     return area > 0 ? squared_norm(spring) / (2 * shear_stiffness * area) : 0;
+  }
+
+ private:
+  [[nodiscard]] double pair_dashpot(const PairContext& context) const {
+    return dashpot_factor *
+           std::sqrt(context.effective_mass * normal_stiffness * context.total_area);
   }
 };
 static_assert(ContactLaw<AreaLaw>);

@@ -5,12 +5,13 @@
 #include <variant>
 
 #include "reckon/contact/area_law.hpp"
+#include "reckon/contact/hertz_law.hpp"
 #include "reckon/contact/linear_law.hpp"
 
 namespace reckon {
 
 /// Every law that a scene can choose. Kernels are compiled once for each.
-using AnyContactLaw = std::variant<LinearLaw, AreaLaw>;
+using AnyContactLaw = std::variant<LinearLaw, AreaLaw, HertzLaw>;
 
 /// Whose nodes are tested in whose level set.
 enum class MasterRule {

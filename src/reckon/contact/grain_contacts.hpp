@@ -83,6 +83,9 @@ class GrainContacts {
   /// The springs of the last evaluate() become the memory of the next.
   void commit();
 
+  /// Sets the Coulomb coefficient from the next evaluate() on.
+  void set_friction(double friction) { settings_.friction = friction; }
+
   /// In the order of their slots, so that neighbours in space are neighbours in memory.
   [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
   [[nodiscard]] std::span<const PairForce> forces() const { return forces_; }

@@ -4,20 +4,29 @@
 #include <numbers>
 
 #include "reckon/contact/area_law.hpp"
+#include "reckon/contact/hertz_law.hpp"
 #include "reckon/contact/linear_law.hpp"
 #include "reckon/math/portable.hpp"
 
 namespace reckon {
 namespace {
 
-/// Rebound speed of the unit impact of area_dashpot_factor's equation.
-double rebound(double alpha) {
+/// Force and its slope at an overlap x, in units in which the force is x^2 or x^(3/2).
+struct Elastic {
+  double force;
+  double slope;
+};
+Elastic square_law(double x) { return {x * x, 2 * x}; }
+Elastic hertz_force(double x) { return {x * std::sqrt(x), 1.5 * std::sqrt(x)}; }
+
+/// Rebound speed of x'' = -max(0, force + alpha sqrt(slope) x') from x = 0, x' = 1 until x = 0.
+double rebound(Elastic (*elastic)(double), double alpha) {
   struct State {
     double x, v;
   };
-  const auto rate = [alpha](const State& s) -> State {
-    const double x = std::max(s.x, 0.0);
-    return {s.v, -std::max(0.0, x * x + alpha * std::sqrt(2 * x) * s.v)};
+  const auto rate = [&](const State& s) -> State {
+    const Elastic at = elastic(std::max(s.x, 0.0));
+    return {s.v, -std::max(0.0, at.force + alpha * std::sqrt(at.slope) * s.v)};
   };
   constexpr double dt = 1e-3;
   State s{0, 1};
@@ -32,6 +41,18 @@ double rebound(double alpha) {
   return -s.v;
 }
 
+/// The alpha that returns a share of the speed, by bisection.
+double dashpot_factor(Elastic (*elastic)(double), double restitution) {
+  double low = 0;
+  double high = 1;
+  while (rebound(elastic, high) > restitution && high < 1e3) high *= 2;
+  for (int n = 0; n < 60; ++n) {
+    const double middle = 0.5 * (low + high);
+    (rebound(elastic, middle) > restitution ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 }  // namespace
 
 double linear_dashpot_factor(double restitution) {
@@ -39,15 +60,8 @@ double linear_dashpot_factor(double restitution) {
   return -2 * log_e / std::sqrt(std::numbers::pi * std::numbers::pi + log_e * log_e);
 }
 
-double area_dashpot_factor(double restitution) {
-  double low = 0;
-  double high = 1;
-  while (rebound(high) > restitution && high < 1e3) high *= 2;
-  for (int n = 0; n < 60; ++n) {
-    const double middle = 0.5 * (low + high);
-    (rebound(middle) > restitution ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
+double area_dashpot_factor(double restitution) { return dashpot_factor(square_law, restitution); }
+
+double hertz_dashpot_factor(double restitution) { return dashpot_factor(hertz_force, restitution); }
 
 }  // namespace reckon

@@ -26,9 +26,7 @@ struct LinearLaw {
                                      const Vec3& normal, const Vec3& velocity,
                                      const Vec3& spring) const {
     const double approach = dot(normal, velocity);
-    const double gamma = dashpot_factor > 0
-                             ? dashpot_factor * std::sqrt(normal_stiffness * context.effective_mass)
-                             : 0;
+    const double gamma = node_dashpot(context);
     const double push = -normal_stiffness * touch.phi - gamma * approach;
     CoulombSlider shear = slide(spring, velocity, normal, context.time_step, shear_stiffness,
                                 context.friction * std::abs(push));
@@ -46,8 +44,23 @@ struct LinearLaw {
                : 1.0;
   }
 
+  [[nodiscard]] double pair_stiffness(const PairContext& context) const {
+    return normal_stiffness * static_cast<double>(context.touching) * pair_scale(context);
+  }
+
+  [[nodiscard]] double pair_damping(const PairContext& context) const {
+    return node_dashpot(context) * static_cast<double>(context.touching) * pair_scale(context);
+  }
+
   [[nodiscard]] double stored_shear_energy(const Vec3& spring, double /*area*/) const {
     return squared_norm(spring) / (2 * shear_stiffness);
+  }
+
+ private:
+  [[nodiscard]] double node_dashpot(const PairContext& context) const {
+    return dashpot_factor > 0
+               ? dashpot_factor * std::sqrt(normal_stiffness * context.effective_mass)
+               : 0;
   }
 };
 static_assert(ContactLaw<LinearLaw>);

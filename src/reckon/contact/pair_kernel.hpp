@@ -17,10 +17,12 @@ struct DirectedForce {
   Vec3 moment_master;  ///< about the master's centre of mass, world frame [N m]
   Vec3 moment_slave;   ///< of the opposite force, about the slave's centre of mass [N m]
   std::uint32_t touching{0};
-  double deepest{0};   ///< largest penetration [m]
-  double elastic{0};   ///< [J]
-  double friction{0};  ///< lost in this step [J]
-  double dashpot{0};   ///< lost in this step [J]
+  double deepest{0};    ///< largest penetration [m]
+  double elastic{0};    ///< [J]
+  double friction{0};   ///< lost in this step [J]
+  double dashpot{0};    ///< lost in this step [J]
+  double stiffness{0};  ///< see ContactLaw [N/m]
+  double damping{0};    ///< likewise [N s/m]
 };
 
 /// How the slave moves: the velocity of its material at a point.
@@ -66,14 +68,16 @@ void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector
 /// Turns the touching nodes of one master into forces, in node order, and appends their new
 /// springs. `old_springs` are last step's springs of the same master and slave, in node order.
 /// `weight` scales forces and energies (1, or 1/2 where both grains are masters in turn), not the
-/// springs.
+/// springs. Where `first_moment` is given, it becomes the sum of the nodes' forces times their
+/// levers about the master's centre, f (x) l [N m].
 template <ContactLaw Law>
 DirectedForce respond(const Law& law, PairContext context, const Vec3& master_center,
                       const RigidMotion& master, const RigidMotion& slave,
                       std::span<const Touch> touches, std::span<const NodeSpring> old_springs,
                       const ShapeView& master_shape, bool master_is_b, double weight,
-                      std::vector<NodeSpring>& new_springs) {
+                      std::vector<NodeSpring>& new_springs, Mat3* first_moment = nullptr) {
   DirectedForce sum;
+  if (first_moment != nullptr) *first_moment = {Vec3{}, Vec3{}, Vec3{}};
   count_touches(context, touches);
   const Vec3 center_offset = master_center - slave.center;
   auto old = old_springs.begin();
@@ -97,6 +101,7 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
     sum.force += node.force;
     sum.moment_master += cross(touch.lever_world, node.force);
     sum.moment_slave -= cross(lever_slave, node.force);
+    if (first_moment != nullptr) *first_moment += outer(node.force, touch.lever_world);
     sum.deepest = std::max(sum.deepest, -touch.phi);
     sum.elastic += node.elastic;
     sum.friction += node.friction;
@@ -106,7 +111,11 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
   }
   while (old != old_springs.end()) let_go(*old++);
 
-  scale(sum, weight * law.pair_scale(context));
+  const double factor = weight * law.pair_scale(context);
+  scale(sum, factor);
+  sum.stiffness = weight * law.pair_stiffness(context);
+  sum.damping = weight * law.pair_damping(context);
+  if (first_moment != nullptr) *first_moment = factor * *first_moment;
   return sum;
 }
 

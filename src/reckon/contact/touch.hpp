@@ -42,12 +42,16 @@ struct NodeResponse {
 ///   step's shear force already turned to today's normal; `velocity` is that of the master's node
 ///   relative to the slave [m/s].
 /// - `pair_scale`: a factor on everything that a pair of `context.touching` nodes does.
+/// - `pair_stiffness` and `pair_damping`: how much more the pair pushes per depth and per speed of
+///   approach, all touching nodes together [N/m], [N s/m].
 /// - `stored_shear_energy`: of a spring that is about to be dropped because its node let go [J].
 template <class Law>
 concept ContactLaw = requires(const Law law, const PairContext& context, const Touch& touch,
                               const Vec3& vector, double area) {
   { law.respond(context, touch, vector, vector, vector) } -> std::same_as<NodeResponse>;
   { law.pair_scale(context) } -> std::same_as<double>;
+  { law.pair_stiffness(context) } -> std::same_as<double>;
+  { law.pair_damping(context) } -> std::same_as<double>;
   { law.stored_shear_energy(vector, area) } -> std::same_as<double>;
 };
 

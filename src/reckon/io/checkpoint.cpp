@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/io/checkpoint.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string_view>
@@ -13,7 +14,7 @@
 namespace reckon {
 namespace {
 
-const Hdf5Kind kind{"checkpoint", 2};  // 2 added departed grains
+const Hdf5Kind kind{"checkpoint", 3};  // 2 added departed grains, 3 driven walls and stages
 
 /// How the parts of the state lie in columns. The same walk fills columns from the state, and the
 /// state from columns: `Columns` offers number, vector, quaternion, id and flag.
@@ -40,6 +41,13 @@ void walk_spring(Columns& columns, Spring& spring) {
   columns.flag("master_is_b", spring.master_is_b);
   columns.vector("shear_force", "N", spring.shear_force);
   columns.vector("normal", "1", spring.normal);
+}
+
+template <class Columns, class Wall>
+void walk_wall(Columns& columns, Wall& wall) {
+  columns.vector("displacement", "m", wall.displacement);
+  columns.vector("velocity", "m/s", wall.velocity);
+  columns.vector("displacement_at_stage_start", "m", wall.displacement_at_stage_start);
 }
 
 /// Appends one row per walk to the columns of a table, which the first walk makes.
@@ -238,6 +246,12 @@ std::vector<CheckpointColumn> to_columns(const SimulationState& state) {
     to.integer("step", gone.step);
     walk_grain(to, gone.grain);
   });
+  const DrivenWall no_wall;
+  append_rows("/driven_wall/", state.driven_walls.size(), columns,
+              [&](Appender& to, std::size_t row) {
+                walk_wall(to, row_or_blank(state.driven_walls, row, no_wall));
+              });
+  columns.push_back({"/stage/start", "1", 1, state.stage_starts});
   const PairSprings no_pair;
   append_rows("/pair/", state.pair_springs.size(), columns, [&](Appender& to, std::size_t row) {
     const PairSprings& pair = row_or_blank(state.pair_springs, row, no_pair);
@@ -315,6 +329,19 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
       if (state.departed[row].grain.shape.get() >= checkpoint.shape_digests.size()) {
         refuse(file, "a departed grain has a shape that is not in the library");
       }
+    }
+  }
+  if (file.version() >= 3) {
+    state.driven_walls.resize(rows_of(file, "/driven_wall/displacement"));
+    Extractor walls{"/driven_wall/", state.driven_walls.size(), file};
+    for (std::size_t row = 0; row < state.driven_walls.size(); ++row) {
+      walls.begin_row(row);
+      walk_wall(walls, state.driven_walls[row]);
+    }
+    state.stage_starts =
+        file.read<std::uint64_t>("/stage/start", {rows_of(file, "/stage/start")});
+    if (!std::is_sorted(state.stage_starts.begin(), state.stage_starts.end())) {
+      refuse(file, "a stage starts before the one before it");
     }
   }
   const std::uint64_t pairs = rows_of(file, "/pair/id_a");

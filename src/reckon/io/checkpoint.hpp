@@ -40,6 +40,8 @@ struct CheckpointColumn {
 ///   /run/{step, time_step, energy_at_start, shape_digest, acceleration_digest, scene}
 ///   /grain/{id, shape, prescribed, position, orientation, ...}     one row per grain, by id
 ///   /departed/{step, id, ...}              grains that left, as they were then
+///   /driven_wall/{displacement, ...}       one row per wall of the scene
+///   /stage/start                           the step at which each stage so far began
 ///   /pair/{id_a, id_b, first_spring}        one row per touching pair; its springs begin there
 ///   /pair_spring/{node, master_is_b, shear_force, normal}
 ///   /wall_contact/{grain, wall, first_spring}, /wall_spring/{...}  the same for walls

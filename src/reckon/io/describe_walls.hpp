@@ -92,6 +92,9 @@ void describe(Visitor& v, WallConfig& wall, const SceneConfig& scene) {
             .unit_note = note,
             .meaning = "Stiffness of the shear springs on this wall."},
            wall.shear_stiffness);
+  v.rule(scene.contact.law != ContactLawKind::hertz ||
+             !(wall.normal_stiffness || wall.shear_stiffness),
+         {"normal_stiffness", "shear_stiffness"}, "with law `hertz` walls are rigid: no stiffness");
   v.flag({.name = "dashpot",
           .meaning = "Whether `contact.restitution` also damps contacts with this wall."},
          wall.dashpot);

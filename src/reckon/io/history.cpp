@@ -25,9 +25,9 @@ namespace {
                .fix = {}}};
 }
 
-std::string header_line(std::span<const Wall> walls) {
+std::string header_line(const HistoryLayout& layout) {
   std::string line;
-  for (const HistoryColumn& column : history_columns(walls)) {
+  for (const HistoryColumn& column : history_columns(layout)) {
     if (!line.empty()) line += ',';
     line += column.name;
   }
@@ -65,9 +65,67 @@ std::vector<std::string> cells(const std::string& line) {
   return out;
 }
 
+void add_vector(std::vector<HistoryColumn>& columns, const std::string& name,
+                const std::string& unit, const std::string& meaning) {
+  for (const char axis : {'x', 'y', 'z'}) {
+    columns.push_back({fmt::format("{}_{}{}", name, axis, unit), meaning});
+  }
+}
+/// The six numbers of a symmetric tensor.
+void add_tensor(std::vector<HistoryColumn>& columns, const std::string& name,
+                const std::string& unit, const std::string& meaning) {
+  for (const char* axes : {"xx", "yy", "zz", "xy", "yz", "zx"}) {
+    columns.push_back({fmt::format("{}_{}{}", name, axes, unit), meaning});
+  }
+}
+std::string tensor_cells(const Mat3& tensor) {
+  const Mat3 s = symmetric_part(tensor);
+  return fmt::format(",{},{},{},{},{},{}", s.row_x.x, s.row_y.y, s.row_z.z, s.row_x.y, s.row_y.z,
+                     s.row_z.x);
+}
+
+void add_sample_columns(std::vector<HistoryColumn>& columns) {
+  columns.push_back({"volume_m3", "of the space that the walls close off; 0 where it is open"});
+  add_vector(columns, "size", "_m", "edges of its bounding box");
+  columns.push_back({"void_ratio", "volume that is not solid over volume that is"});
+  add_vector(columns, "strain", "",
+             "logarithmic strain since the stage began, compression positive");
+  columns.push_back({"volumetric_strain", "likewise, of the volume"});
+  add_tensor(columns, "stress", "_Pa",
+             "stress of Love and Weber from all contacts, compression positive, symmetric part");
+  add_tensor(columns, "wall_stress", "_Pa", "the same from forces on the walls alone");
+  columns.push_back({"mean_stress_Pa", "p, a third of the trace of the stress"});
+  columns.push_back({"deviator_Pa", "q = sqrt(3 J2) of the stress"});
+  columns.push_back({"friction_angle_deg",
+                     "mobilised: sine is (sigma_1 - sigma_3) / (sigma_1 + sigma_3)"});
+  columns.push_back({"inertial_number",
+                     "largest rate of strain times mean diameter times sqrt(density / p)"});
+  columns.push_back({"mechanical_coordination",
+                     "contacts per grain over grains with at least two of them"});
+  columns.push_back({"rattlers", "grains with fewer than two contacts"});
+  add_tensor(columns, "contact_tensor", "", "mean of n (x) n over contact normals between grains");
+  add_tensor(columns, "branch_tensor", "",
+             "the same over directions from centre to centre of touching grains");
+  columns.push_back({"mean_force_N", "mean contact force between grains"});
+  columns.push_back({"force_variation", "standard deviation of the contact force over its mean"});
+  columns.push_back({"largest_force", "largest contact force over the mean"});
+}
+
+std::string sample_cells(const SampleMeasurement& s) {
+  std::string cells = fmt::format(",{},{},{},{},{},{},{},{},{}", s.volume, s.size.x, s.size.y,
+                                  s.size.z, s.void_ratio, s.strain.x, s.strain.y, s.strain.z,
+                                  s.volumetric_strain);
+  cells += tensor_cells(s.stress) + tensor_cells(s.wall_stress);
+  cells += fmt::format(",{},{},{},{},{},{}", s.invariants.mean, s.invariants.deviator,
+                       s.invariants.friction_angle, s.inertial_number, s.mechanical_coordination,
+                       s.rattlers);
+  cells += tensor_cells(s.contact_tensor) + tensor_cells(s.branch_tensor);
+  return cells + fmt::format(",{},{},{}", s.mean_force, s.force_variation, s.largest_force);
+}
+
 }  // namespace
 
-std::vector<HistoryColumn> history_columns(std::span<const Wall> walls) {
+std::vector<HistoryColumn> history_columns(const HistoryLayout& layout) {
   std::vector<HistoryColumn> columns{
       {"step", "number of steps since the start"},
       {"time_s", "simulated time"},
@@ -96,12 +154,14 @@ std::vector<HistoryColumn> history_columns(std::span<const Wall> walls) {
       {"momentum_x_kg_m_per_s", "momentum of all grains"},
       {"momentum_y_kg_m_per_s", "momentum of all grains"},
       {"momentum_z_kg_m_per_s", "momentum of all grains"}};
-  for (const Wall& wall : walls) {
+  for (const Wall& wall : layout.walls) {
     for (const char axis : {'x', 'y', 'z'}) {
       columns.push_back({fmt::format("{}:f{}_N", wall.name, axis),
                          fmt::format("force of the grains on wall {}", wall.name)});
     }
   }
+  if (layout.stages) columns.push_back({"stage", "the stage under way, counted from 1"});
+  if (layout.sample) add_sample_columns(columns);
   return columns;
 }
 
@@ -113,33 +173,38 @@ std::string history_reference_markdown() {
       "as the same bits. Energies add up as\n\n"
       "    translation + rotation + gravity + elastic + friction + dashpot + damping\n"
       "      + departed - body_work - wall_work = constant + balance_error\n\n"
+      "Column `stage` is there where the scene has stages; `volume_m3` and what follows where "
+      "`output.sample` is true. The row at the last step of a stage belongs to that stage.\n\n"
       "This page is made by `reckon reference history`.\n\n"
       "| column | meaning |\n|---|---|\n";
   const Wall example{.name = "WALL", .surface = PlaneSurface{}, .law = LinearLaw{}};
-  for (const HistoryColumn& column : history_columns(std::span{&example, 1})) {
+  for (const HistoryColumn& column : history_columns({std::span{&example, 1}, true, true})) {
     page += fmt::format("| `{}` | {} |\n", column.name, column.meaning);
   }
   return page;
 }
 
-std::string history_row(const Measurement& m, double energy_at_start) {
+std::string history_row(const HistoryRow& told) {
+  const Measurement& m = told.measurement;
   const EnergyBudget& e = m.energy;
   std::string row = fmt::format(
       "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", m.step, m.time,
       e.translation, e.rotation, e.gravity, e.elastic, e.friction, e.dashpot, e.damping,
-      e.body_work, e.wall_work, e.departed, e.total() - energy_at_start, m.grains, m.departed,
+      e.body_work, e.wall_work, e.departed, e.total() - told.energy_at_start, m.grains, m.departed,
       m.contacts, m.wall_contacts, m.touching_nodes, m.coordination, m.unbalanced_ratio,
       m.deepest_overlap, m.largest_speed, m.momentum.x, m.momentum.y, m.momentum.z);
   for (const Vec3& force : m.wall_force) {
     row += fmt::format(",{},{},{}", force.x, force.y, force.z);
   }
+  if (told.stage) row += fmt::format(",{}", *told.stage);
+  if (told.sample != nullptr) row += sample_cells(*told.sample);
   return row;
 }
 
-HistoryFile::HistoryFile(std::filesystem::path path, std::span<const Wall> walls,
+HistoryFile::HistoryFile(std::filesystem::path path, const HistoryLayout& layout,
                          const std::function<bool(std::uint64_t)>& keep)
     : path_{std::move(path)} {
-  const std::string header = header_line(walls);
+  const std::string header = header_line(layout);
   std::string content = header;
   if (keep) {
     const std::vector<std::string> lines = complete_lines(read_file(path_));
@@ -157,8 +222,8 @@ HistoryFile::HistoryFile(std::filesystem::path path, std::span<const Wall> walls
 
 HistoryFile::~HistoryFile() { ::close(descriptor_); }
 
-void HistoryFile::append(const Measurement& measurement, double energy_at_start) {
-  const std::string line = history_row(measurement, energy_at_start) + '\n';
+void HistoryFile::append(const HistoryRow& row) {
+  const std::string line = history_row(row) + '\n';
   const ssize_t written = ::write(descriptor_, line.data(), line.size());
   if (written != static_cast<ssize_t>(line.size())) {
     fail(path_, "a row could not be written",

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "reckon/analysis/sample.hpp"
 #include "reckon/boundary/wall.hpp"
 #include "reckon/simulation/measurement.hpp"
 
@@ -20,15 +22,30 @@ struct HistoryColumn {
   std::string meaning;
 };
 
-/// The columns of a run: fixed ones, then three per wall.
-[[nodiscard]] std::vector<HistoryColumn> history_columns(std::span<const Wall> walls);
+/// Which columns a run has.
+struct HistoryLayout {
+  std::span<const Wall> walls;
+  bool stages{false};  ///< the number of the stage
+  bool sample{false};  ///< what SampleMeasurement holds
+};
+
+/// What a row tells.
+struct HistoryRow {
+  const Measurement& measurement;
+  double energy_at_start{0};                 ///< EnergyBudget::total() at step 0 [J]
+  std::optional<std::uint64_t> stage{};      ///< counted from 1
+  const SampleMeasurement* sample{nullptr};  ///< none where the layout has none
+};
+
+/// The columns of a run: fixed ones, three per wall, then those of stages and sample.
+[[nodiscard]] std::vector<HistoryColumn> history_columns(const HistoryLayout& layout);
 
 /// The reference page docs/reference/history.md.
 [[nodiscard]] std::string history_reference_markdown();
 
 /// One row, without the end of the line. Numbers are written so that they read back as the same
-/// bits. `energy_at_start` is EnergyBudget::total() at step 0 [J].
-[[nodiscard]] std::string history_row(const Measurement& measurement, double energy_at_start);
+/// bits.
+[[nodiscard]] std::string history_row(const HistoryRow& told);
 
 /// history.csv of a run under way. Each row is handed to the system in one piece, so a killed run
 /// leaves whole rows.
@@ -36,13 +53,13 @@ class HistoryFile {
  public:
   /// Starts a new file, or goes on with the one there: then rows for which `keep(step)` is false
   /// are dropped first. Throws Error when the file cannot be written, or has another header.
-  HistoryFile(std::filesystem::path path, std::span<const Wall> walls,
+  HistoryFile(std::filesystem::path path, const HistoryLayout& layout,
               const std::function<bool(std::uint64_t)>& keep = {});
   ~HistoryFile();
   HistoryFile(const HistoryFile&) = delete;
   HistoryFile& operator=(const HistoryFile&) = delete;
 
-  void append(const Measurement& measurement, double energy_at_start);
+  void append(const HistoryRow& row);
 
  private:
   std::filesystem::path path_;

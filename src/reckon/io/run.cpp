@@ -13,10 +13,15 @@
 #include <utility>
 
 #include "reckon/core/build_info.hpp"
+#include "reckon/analysis/sample.hpp"
+#include "reckon/io/output_schedule.hpp"
 #include "reckon/io/run_files.hpp"
 #include "reckon/io/scene_sharing.hpp"
+#include "reckon/io/stage_goals.hpp"
+#include "reckon/io/stage_report.hpp"
 #include "reckon/parallel/on_root.hpp"
 #include "reckon/parallel/threads.hpp"
+#include "reckon/simulation/stage_setup.hpp"
 
 namespace reckon {
 namespace {
@@ -44,10 +49,12 @@ class Session {
         files_{files},
         simulation_{std::move(prepared.setup),
                     files != nullptr ? files->take_start() : SimulationState{}, ranks},
+        schedule_{config, simulation_.stage_starts()},
         resumed_{resumed} {
     progress_.first_step = simulation_.step_number();
     progress_.step = progress_.first_step;
     progress_.steps = steps;
+    if (has_stages()) progress_.steps = last_possible_step();
     progress_.time = simulation_.time();
     if (resumed) last_checkpoint_ = progress_.first_step;
   }
@@ -57,7 +64,7 @@ class Session {
       begin();
       RunEnd end = RunEnd::complete;
       bool interrupted = false;
-      bool rests = resumed_ && rests_after_history();
+      bool rests = resumed_ && (rests_after_history() || test_is_over());
       if (resumed_ && (rests || progress_.step >= progress_.steps)) end = RunEnd::nothing_to_do;
       while (!rests && !interrupted && progress_.step < progress_.steps) {
         simulation_.step();
@@ -68,7 +75,9 @@ class Session {
         if (hooks_.progressed) hooks_.progressed(progress_);
       }
       if (end != RunEnd::nothing_to_do) {
-        end = interrupted ? RunEnd::interrupted : rests ? RunEnd::at_rest : RunEnd::complete;
+        end = interrupted               ? RunEnd::interrupted
+              : rests && !has_stages() ? RunEnd::at_rest
+                                       : RunEnd::complete;
       }
       return finish(end);
     } catch (const Error& error) {
@@ -93,7 +102,7 @@ class Session {
       }
     } else {
       measure();
-      on_root(ranks_, [&] { files_->begin(last_); });
+      on_root(ranks_, [&] { files_->begin(row()); });
       write_fields();
     }
     save_record("running");
@@ -121,13 +130,63 @@ class Session {
     return {votes[0] > 0, votes[1] > 0};
   }
 
-  /// Returns whether the assembly has come to rest.
+  [[nodiscard]] bool has_stages() const { return !config_.stages.empty(); }
+  [[nodiscard]] std::size_t stage_index() const { return simulation_.stage_starts().size() - 1; }
+
+  /// Where the run ends if all stages from this one on take their whole time.
+  [[nodiscard]] std::uint64_t last_possible_step() const {
+    std::uint64_t step = simulation_.stage_starts().back();
+    for (std::size_t n = stage_index(); n < config_.stages.size(); ++n) {
+      step += most_steps(config_.stages[n], simulation_.setup().time_step);
+    }
+    return options_.steps ? std::min(step, *options_.steps) : step;
+  }
+
+  /// Goals are looked at only at fixed steps, so that a resumed run ends a stage where an
+  /// uninterrupted one does.
+  bool stage_is_over() {
+    if (!has_stages()) return false;
+    const StageConfig& stage = config_.stages[stage_index()];
+    const std::uint64_t start = simulation_.stage_starts().back();
+    const std::uint64_t step = progress_.step;
+    if (step <= start) return false;
+    if (step - start >= most_steps(stage, simulation_.setup().time_step)) return true;
+    std::uint64_t interval = schedule_.history_interval(step);
+    if (interval == 0) interval = rest_interval_without_history;
+    if (!stage.until || !is_due(step, interval)) return false;
+    measure();
+    return reached(*stage.until, simulation_, last_, sample_);
+  }
+  bool test_is_over() {
+    return has_stages() && stage_index() + 1 == config_.stages.size() && stage_is_over();
+  }
+
+  void begin_next_stage() {
+    const StageConfig& over = config_.stages[stage_index()];
+    measure();
+    const bool in_time = !over.until || reached(*over.until, simulation_, last_, sample_);
+    if (files_ != nullptr) {
+      const std::uint64_t steps = progress_.step - simulation_.stage_starts().back();
+      files_->note(stage_note(over.name, steps, in_time, last_, sample_));
+    }
+    if (stage_index() + 1 == config_.stages.size()) return;
+    simulation_.begin_next_stage();
+    schedule_.begin_stage(progress_.step);
+    progress_.steps = last_possible_step();
+  }
+
+  /// Returns whether the run is over: the assembly has come to rest, or the last stage has ended.
   bool write_what_is_due(bool safety_checkpoint) {
     const std::uint64_t step = progress_.step;
     bool rests = false;
-    if (is_due(step, config_.output.history_interval)) append_history();
+    const bool stage_ends = stage_is_over();
+    if (stage_ends || schedule_.history_due(step)) append_history();
     if (is_due(step, rest_interval())) rests = rests_after_history();
-    if (is_due(step, config_.output.fields_interval)) write_fields();
+    if (stage_ends || schedule_.fields_due(step)) write_fields();
+    if (stage_ends) {
+      rests = stage_index() + 1 == config_.stages.size();
+      begin_next_stage();
+    }
     if (is_due(step, config_.output.checkpoint_interval) || safety_checkpoint) save_checkpoint();
     if (files_ != nullptr && seconds_since(last_log_time_) >= log_interval) {
       last_log_time_ = Clock::now();
@@ -154,14 +213,21 @@ class Session {
   void measure() {
     if (last_.step == simulation_.step_number() && measured_) return;
     last_ = simulation_.measure();
+    if (has_stages() || config_.output.sample) sample_ = measure_sample(simulation_);
     measured_ = true;
     progress_.unbalanced_ratio = last_.unbalanced_ratio;
     progress_.kinetic_energy = last_.energy.translation + last_.energy.rotation;
   }
 
+  [[nodiscard]] HistoryRow row() const {
+    HistoryRow row{.measurement = last_};
+    if (has_stages()) row.stage = stage_index() + 1;
+    if (config_.output.sample) row.sample = &sample_;
+    return row;
+  }
   void append_history() {
     measure();
-    on_root(ranks_, [&] { files_->append_history(last_); });
+    on_root(ranks_, [&] { files_->append_history(row()); });
   }
 
   void write_fields() {
@@ -207,6 +273,7 @@ class Session {
                              std::abs(energy.wall_work);
     report.checkpoint = files_->checkpoint_file();
     report.performance = files_->performance_text();
+    if (has_stages()) report.stages = stage_report(config_, files_->history());
     return report;
   }
 
@@ -227,9 +294,11 @@ class Session {
   Communicator ranks_;
   RunFiles* files_;
   Simulation simulation_;
+  OutputSchedule schedule_;
   bool resumed_;
   RunProgress progress_;
   Measurement last_;
+  SampleMeasurement sample_;
   bool measured_{false};
   std::optional<std::uint64_t> last_checkpoint_;  // its step
   Clock::time_point start_{Clock::now()};

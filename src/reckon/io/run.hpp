@@ -58,6 +58,7 @@ struct RunReport {
   double energy_turnover{0};         ///< stored, lost and come in, as a measure for it [J]
   std::filesystem::path checkpoint;  ///< the latest; on the root
   std::string performance;           ///< see performance_table; on the root
+  std::string stages;                ///< see stage_report; on the root
 };
 
 /// An Error that came up while steps were being made: not the input's fault, as far as is known.

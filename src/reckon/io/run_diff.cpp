@@ -52,6 +52,8 @@ std::string row_name(const std::string& column, std::uint64_t row, const Simulat
   if (column.starts_with("/departed/")) {
     return fmt::format("departed grain {}", state.departed[row].grain.id.get());
   }
+  if (column.starts_with("/driven_wall/")) return fmt::format("wall {}", row);
+  if (column.starts_with("/stage/")) return fmt::format("stage {}", row + 1);
   if (column.starts_with("/pair/") && row < state.pair_springs.size()) {
     const PairSprings& pair = state.pair_springs[row];
     return fmt::format("pair of grains {} and {}", pair.id_a.get(), pair.id_b.get());

@@ -34,7 +34,8 @@ RunFiles::RunFiles(const SceneReading& reading, const LoadedScene& scene,
   log_.emplace(folder_.log());
   write_file(folder_.scene(), reading.text);
   write_file(folder_.resolved(), resolved_scene(scene.config, prepared, steps));
-  outputs_.emplace(folder_, scene, prepared, resumed_ ? std::optional{first_step} : std::nullopt);
+  outputs_.emplace(folder_, scene, prepared,
+                   OutputSchedule{scene.config, checkpoint_.state.stage_starts}, resumed_ ? std::optional{first_step} : std::nullopt);
   record_.started = utc_now();
   record_.scene = scene.config.title;
   record_.grains = scene.grains.size();
@@ -53,14 +54,15 @@ void RunFiles::note(const std::string& text) {
   if (hooks_.note) hooks_.note(text);
 }
 
-void RunFiles::begin(const Measurement& at_start) {
-  checkpoint_.energy_at_start = at_start.energy.total();
+void RunFiles::begin(HistoryRow at_start) {
+  checkpoint_.energy_at_start = at_start.measurement.energy.total();
   append_history(at_start);
 }
 
-void RunFiles::append_history(const Measurement& measurement) {
+void RunFiles::append_history(HistoryRow row) {
   Stopwatch watch;
-  outputs_->append_history(measurement, checkpoint_.energy_at_start);
+  row.energy_at_start = checkpoint_.energy_at_start;
+  outputs_->append_history(row);
   output_seconds_ += watch.lap();
 }
 

@@ -34,8 +34,9 @@ class RunFiles {
 
   void note(const std::string& text);       ///< in the log and to the caller
   void log(const std::string& text) const;  ///< in the log alone
-  void begin(const Measurement& at_start);  ///< the first row of a fresh run
-  void append_history(const Measurement& measurement);
+  void begin(HistoryRow at_start);  ///< the first row of a fresh run
+  /// Fills in the energy at the start.
+  void append_history(HistoryRow row);
   /// Fields and checkpoints are written while the caller goes on; what goes wrong then is thrown by
   /// a later call.
   void write_fields(FieldsAtStep fields);
@@ -52,6 +53,7 @@ class RunFiles {
   [[nodiscard]] bool history_has(std::uint64_t step) const { return outputs_->history_has(step); }
   [[nodiscard]] bool fields_have(std::uint64_t step) const { return outputs_->fields_have(step); }
   [[nodiscard]] std::filesystem::path checkpoint_file() const;
+  [[nodiscard]] HistoryTable history() const { return read_history(folder_.history()); }
   [[nodiscard]] const std::string& performance_text() const { return performance_text_; }
   [[nodiscard]] double energy_at_start() const { return checkpoint_.energy_at_start; }
 

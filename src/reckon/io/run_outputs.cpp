@@ -9,42 +9,40 @@
 namespace reckon {
 namespace {
 
-/// Whether a run without a break would have written something at `step` by the time it is at
-/// `resumed_at`.
-bool belongs(std::uint64_t step, std::uint64_t interval, std::uint64_t resumed_at) {
-  return step <= resumed_at && (step == 0 || is_due(step, interval));
-}
-
-std::function<bool(std::uint64_t)> rows_to_keep(const OutputConfig& config,
+/// What a run without a break would have written by the time it is at `resumed_at`.
+std::function<bool(std::uint64_t)> rows_to_keep(const OutputSchedule& schedule,
                                                 std::optional<std::uint64_t> resumed_at) {
   if (!resumed_at) return {};
-  return [interval = config.history_interval, at = *resumed_at](std::uint64_t step) {
-    return belongs(step, interval, at);
+  return [schedule, at = *resumed_at](std::uint64_t step) {
+    return step <= at && schedule.history_due(step);
   };
 }
 
 }  // namespace
 
 RunOutputs::RunOutputs(RunFolder folder, const LoadedScene& scene, const PreparedScene& prepared,
-                       std::optional<std::uint64_t> resumed_at)
+                       OutputSchedule schedule, std::optional<std::uint64_t> resumed_at)
     : folder_{std::move(folder)},
       config_{scene.config.output},
+      schedule_{std::move(schedule)},
       shapes_{scene.shapes},
       read_shape_{scene.read_shape},
       density_{scene.config.material.density},
       time_step_{prepared.time_step.step},
-      history_{folder_.history(), prepared.setup.walls, rows_to_keep(config_, resumed_at)} {
+      history_{folder_.history(),
+               {prepared.setup.walls, !prepared.setup.stages.empty(), config_.sample},
+               rows_to_keep(schedule_, resumed_at)} {
   if (!resumed_at) return;
   take_over("grains", *resumed_at, grains_);
   take_over("contacts", *resumed_at, contacts_);
   take_over("surfaces", *resumed_at, surfaces_);
-  if (belongs(*resumed_at, config_.history_interval, *resumed_at)) last_row_ = resumed_at;
-  if (belongs(*resumed_at, config_.fields_interval, *resumed_at)) last_frame_ = resumed_at;
+  if (schedule_.history_due(*resumed_at)) last_row_ = resumed_at;
+  if (schedule_.fields_due(*resumed_at)) last_frame_ = resumed_at;
 }
 
-void RunOutputs::append_history(const Measurement& measurement, double energy_at_start) {
-  history_.append(measurement, energy_at_start);
-  last_row_ = measurement.step;
+void RunOutputs::append_history(const HistoryRow& row) {
+  history_.append(row);
+  last_row_ = row.measurement.step;
 }
 
 void RunOutputs::write_fields(const FieldsAtStep& fields) {
@@ -77,7 +75,7 @@ void RunOutputs::take_over(std::string_view kind, std::uint64_t resumed_at,
   const std::vector<std::uint64_t> steps = folder_.field_steps(kind);
   for (const std::uint64_t step : steps) {
     const std::string name = RunFolder::field_name(kind, step);
-    if (belongs(step, config_.fields_interval, resumed_at)) {
+    if (step <= resumed_at && schedule_.fields_due(step)) {
       entries.push_back({static_cast<double>(step) * time_step_, name, {}});
     } else {
       std::filesystem::remove(folder_.root() / name);

@@ -12,14 +12,10 @@
 #include "reckon/io/fields.hpp"
 #include "reckon/io/history.hpp"
 #include "reckon/io/run_folder.hpp"
+#include "reckon/io/output_schedule.hpp"
 #include "reckon/simulation/setup.hpp"
 
 namespace reckon {
-
-/// Whether something that happens every `interval` steps happens at `step`; never when 0.
-[[nodiscard]] constexpr bool is_due(std::uint64_t step, std::uint64_t interval) {
-  return interval > 0 && step % interval == 0;
-}
 
 /// The tables and pictures of a run under way. When a run is resumed at a step, what lies behind
 /// that step, and what only the end of the earlier session had written, is removed first: so the
@@ -27,9 +23,9 @@ namespace reckon {
 class RunOutputs {
  public:
   RunOutputs(RunFolder folder, const LoadedScene& scene, const PreparedScene& prepared,
-             std::optional<std::uint64_t> resumed_at);
+             OutputSchedule schedule, std::optional<std::uint64_t> resumed_at);
 
-  void append_history(const Measurement& measurement, double energy_at_start);
+  void append_history(const HistoryRow& row);
   void write_fields(const FieldsAtStep& fields);
 
   /// Whether the last row or files written are those of this step.
@@ -42,6 +38,7 @@ class RunOutputs {
 
   RunFolder folder_;
   OutputConfig config_;
+  OutputSchedule schedule_;  // as of the start of the session
   std::vector<ShapeSummary> shapes_;
   ShapeStore::Read read_shape_;
   double density_;

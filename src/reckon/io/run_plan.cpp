@@ -102,7 +102,7 @@ void estimate_output(const LoadedScene& scene, std::uint64_t row_bytes, RunPlan&
 }
 
 /// Makes steps in memory to know how long they take.
-void time_steps(PreparedScene& prepared, double timing_seconds, RunPlan& plan,
+void time_steps(PreparedScene& prepared, double timing_seconds, bool with_sample, RunPlan& plan,
                 std::uint64_t& row_bytes) {
   plan.threads = thread_count();
   double seconds_per_row = 0;
@@ -123,11 +123,30 @@ void time_steps(PreparedScene& prepared, double timing_seconds, RunPlan& plan,
     const Clock::time_point measuring = Clock::now();
     measurement = simulation.measure();
     seconds_per_row = seconds_since(measuring);
-    row_bytes = history_row(measurement, 0).size() + 1;
+    const SampleMeasurement sample = measure_sample(simulation);
+    row_bytes = history_row({.measurement = measurement, .sample = with_sample ? &sample : nullptr})
+                    .size() +
+                1;
   } catch (const Error& error) {
     plan.trial_failure = error.what();
   }
   plan.output_seconds = static_cast<double>(plan.history_rows) * seconds_per_row;
+}
+
+void write_stages(JsonWriter& json, const std::vector<StagePlan>& stages) {
+  json.begin_array("stages");
+  for (const StagePlan& stage : stages) {
+    json.begin_object();
+    json.value("name", stage.name);
+    json.value("most_steps", stage.most_steps);
+    if (stage.pace) {
+      json.value("strain_rate_per_s", stage.pace->rate);
+      json.value("inertial_number", stage.pace->inertial_number);
+      json.value("advised_strain_rate_per_s", stage.pace->advised_rate);
+    }
+    json.end();
+  }
+  json.end();
 }
 
 }  // namespace
@@ -141,11 +160,12 @@ RunPlan plan_run(const LoadedScene& scene, double timing_seconds) {
   plan.limiting_shape =
       scene.shapes[scene.grains[prepared.time_step.limiting.get()].shape.get()].name;
   plan.steps = prepared.steps;
+  plan.stages = plan_stages(scene, prepared.time_step.step);
   plan.simulated_time = static_cast<double>(plan.steps) * prepared.time_step.step;
   estimate_memory(plan);
   plan.history_rows = 1 + occasions(plan.steps, scene.config.output.history_interval);
   std::uint64_t row_bytes = 0;
-  time_steps(prepared, timing_seconds, plan, row_bytes);
+  time_steps(prepared, timing_seconds, scene.config.output.sample, plan, row_bytes);
   estimate_output(scene, row_bytes, plan);
   plan.output_seconds += static_cast<double>(plan.output_bytes) / disk_rate;
   plan.duration = static_cast<double>(plan.steps) * plan.seconds_per_step + plan.output_seconds;
@@ -183,8 +203,14 @@ std::string plan_text(const RunPlan& plan) {
                step.given ? "the rule would look at" : "set by", step.limiting.get(),
                plan.limiting_shape, step.mass, step.stiffness,
                step.given ? fmt::format(", and take {:.4g} s", step.rule_step) : std::string{}));
+  for (std::size_t n = 0; n < plan.stages.size(); ++n) {
+    const auto lines = stage_lines(plan.stages[n], step.step);
+    line(fmt::format("stage {}", n + 1), lines.front());
+    for (std::size_t more = 1; more < lines.size(); ++more) line("", lines[more]);
+  }
   line("steps",
-       fmt::format("{}, {:.6g} s simulated", human_count(plan.steps), plan.simulated_time));
+       fmt::format("{}{}, {:.6g} s simulated", plan.stages.empty() ? "" : "at most ",
+                   human_count(plan.steps), plan.simulated_time));
   line("memory", fmt::format("about {} besides the program itself ({} of shapes)",
                              human_bytes(plan.memory_shapes + plan.memory_grains),
                              human_bytes(plan.memory_shapes)));
@@ -230,6 +256,7 @@ std::string plan_json(const RunPlan& plan) {
   json.value("mass_kg", plan.time_step.mass);
   json.value("stiffness_N_per_m", plan.time_step.stiffness);
   json.end();
+  if (!plan.stages.empty()) write_stages(json, plan.stages);
   json.value("steps", plan.steps);
   json.value("simulated_time_s", plan.simulated_time);
   json.value("memory_bytes", plan.memory_shapes + plan.memory_grains);

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "reckon/io/stage_plan.hpp"
 #include "reckon/simulation/setup.hpp"
 
 namespace reckon {
@@ -30,7 +32,8 @@ struct RunPlan {
   TimeStepChoice time_step;
   double step_fraction{0};
   std::string limiting_shape;  ///< of the grain that limits the time step
-  std::uint64_t steps{0};
+  std::vector<StagePlan> stages;
+  std::uint64_t steps{0};  ///< with stages, at most
   double simulated_time{0};  ///< [s]
 
   std::uint64_t memory_shapes{0};  ///< [bytes]

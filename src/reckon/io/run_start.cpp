@@ -18,7 +18,7 @@ std::string resolved_scene(const SceneConfig& config, const PreparedScene& prepa
   SceneConfig resolved = config;
   resolved.time.step = prepared.time_step.step;
   resolved.time.duration.reset();
-  resolved.time.steps = steps;
+  resolved.time.steps = resolved.stages.empty() ? steps : std::nullopt;
   return write_scene(resolved);
 }
 

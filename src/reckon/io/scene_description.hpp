@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "reckon/io/describe_grains.hpp"
+#include "reckon/io/describe_stages.hpp"
 #include "reckon/io/describe_walls.hpp"
 #include "reckon/io/scene_key.hpp"
 #include "reckon/simulation/config.hpp"
@@ -45,32 +46,56 @@ void describe(Visitor& v, MaterialConfig& material) {
 template <class Visitor>
 void describe(Visitor& v, ContactConfig& contact) {
   constexpr std::array laws{Choice{"area", ContactLawKind::area},
-                            Choice{"linear", ContactLawKind::linear}};
+                            Choice{"linear", ContactLawKind::linear},
+                            Choice{"hertz", ContactLawKind::hertz}};
   constexpr std::array masters{Choice{"lower_id", MasterRule::lower_id},
                                Choice{"smaller", MasterRule::smaller},
                                Choice{"both", MasterRule::both}};
   v.choice({.name = "law",
             .meaning = "How a touching node pushes: `area`: stiffness times depth times the node's "
                        "area, independent of node density; `linear`: stiffness times depth per "
-                       "node."},
+                       "node; `hertz`: Hertz and Mindlin's law from elastic constants."},
            contact.law, laws);
   const std::string_view unit = contact.law == ContactLawKind::area ? "N/m^3" : "N/m";
   constexpr std::string_view note = "N/m^3 (law area), N/m (law linear)";
-  v.number({.name = "normal_stiffness",
-            .unit = unit,
-            .range = above(0),
-            .required = true,
-            .unit_note = note,
-            .meaning = "Normal stiffness of a node: per area (law `area`) or as a whole (law "
-                       "`linear`)."},
-           contact.normal_stiffness);
-  v.number({.name = "shear_stiffness",
-            .unit = unit,
-            .range = above(0),
-            .standard = "0.9 normal_stiffness",
-            .unit_note = note,
-            .meaning = "Stiffness of the shear springs, in the same measure."},
-           contact.shear_stiffness);
+  const bool is_hertz = contact.law == ContactLawKind::hertz;
+  if (v.visits(!is_hertz)) {
+    v.number({.name = "normal_stiffness",
+              .unit = unit,
+              .range = above(0),
+              .required = !is_hertz,
+              .unit_note = note,
+              .meaning = "Normal stiffness of a node: per area (law `area`) or as a whole (law "
+                         "`linear`)."},
+             contact.normal_stiffness);
+    v.number({.name = "shear_stiffness",
+              .unit = unit,
+              .range = above(0),
+              .standard = "0.9 normal_stiffness",
+              .unit_note = note,
+              .meaning = "Stiffness of the shear springs, in the same measure."},
+             contact.shear_stiffness);
+  }
+  v.rule(!is_hertz || !(v.given("normal_stiffness") || v.given("shear_stiffness")),
+         {"normal_stiffness", "shear_stiffness"},
+         "law `hertz` takes no stiffness but `young_modulus` and `poisson_ratio`");
+  if (v.visits(is_hertz)) {
+    v.number({.name = "young_modulus",
+              .unit = "Pa",
+              .range = above(0),
+              .required = is_hertz,
+              .standard = is_hertz ? "" : "needed by law hertz",
+              .meaning = "Law `hertz`: Young's modulus of the grains; walls are rigid."},
+             contact.young_modulus);
+    v.number({.name = "poisson_ratio",
+              .unit = "1",
+              .range = {.low = 0, .high = 0.5},
+              .meaning = "Law `hertz`: Poisson's ratio of the grains."},
+             contact.poisson_ratio);
+  }
+  v.rule(is_hertz || !(v.given("young_modulus") || v.given("poisson_ratio")),
+         {"young_modulus", "poisson_ratio"},
+         "`young_modulus` and `poisson_ratio` belong to law `hertz`");
   v.number({.name = "restitution",
             .unit = "1",
             .range = {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false},
@@ -131,7 +156,7 @@ void describe(Visitor& v, BodyForceConfig& body) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, TimeConfig& time) {
+void describe(Visitor& v, TimeConfig& time, bool stages) {
   v.one_of(Presence::at_most_one, {"step", "step_fraction"}, time.step ? 0U : 1U,
            [&](std::size_t which) {
              if (which == 0) {
@@ -149,8 +174,8 @@ void describe(Visitor& v, TimeConfig& time) {
                         time.step_fraction);
              }
            });
-  v.one_of(Presence::exactly_one, {"duration", "steps"}, time.duration ? 0U : 1U,
-           [&](std::size_t which) {
+  v.one_of(stages ? Presence::at_most_one : Presence::exactly_one, {"duration", "steps"},
+           time.duration ? 0U : 1U, [&](std::size_t which) {
              if (which == 0) {
                v.number({.name = "duration",
                          .unit = "s",
@@ -173,6 +198,11 @@ void describe(Visitor& v, TimeConfig& time) {
             .standard = "runs to the end",
             .meaning = "Ends the run early when the unbalanced force ratio falls below this."},
            time.stop_at_unbalanced_ratio);
+  v.rule(
+      !stages || !(v.given("duration") || v.given("steps") || v.given("stop_at_unbalanced_ratio")),
+      {"duration", "steps", "stop_at_unbalanced_ratio"},
+      "with [[stage]] tables, only they say when to end: no `duration`, `steps` or "
+      "`stop_at_unbalanced_ratio` here");
 }
 
 template <class Visitor>
@@ -226,6 +256,13 @@ void describe(Visitor& v, OutputConfig& output) {
              .unit_note = "steps",
              .meaning = "Steps between ParaView files; 0: only start and end."},
             output.fields_interval);
+  if (v.visits(output.sample)) {  // not written when off: runs from before it go on
+    v.flag(
+        {.name = "sample",
+         .meaning = "Adds columns to history.csv for stress, strain, void ratio, fabric and forces "
+                    "of the sample between the walls."},
+        output.sample);
+  }
   v.flag({.name = "contacts", .meaning = "Writes contacts as lines beside the grains."},
          output.contacts);
   v.flag({.name = "surfaces", .meaning = "Writes the grains' true surfaces beside the grains."},
@@ -259,7 +296,13 @@ void describe(Visitor& v, SceneConfig& scene) {
             .meaning = "Grains whose centre gets beyond it are taken out of the simulation; "
                        "history.csv counts them. Without one no grain is ever removed."},
            scene.outflows, [&](OutflowConfig& outflow) { describe(v, outflow); });
-  v.table({.name = "time", .meaning = "How long to run."}, [&] { describe(v, scene.time); });
+  v.tables({.name = "stage",
+            .standard = "none: one run for the length in [time]",
+            .meaning = "A stage of a test. Stages run one after another; the run ends with the "
+                       "last."},
+           scene.stages, [&](StageConfig& stage) { describe(v, stage); });
+  v.table({.name = "time", .meaning = "How long to run."},
+          [&] { describe(v, scene.time, !scene.stages.empty()); });
   v.table({.name = "neighbor", .meaning = "How neighbours are found."},
           [&] { describe(v, scene.neighbor); });
   v.table({.name = "parallel",

@@ -16,8 +16,10 @@
 #include "reckon/core/error.hpp"
 #include "reckon/io/nearest_name.hpp"
 #include "reckon/io/number_table.hpp"
+#include "reckon/io/stage_check.hpp"
 #include "reckon/math/rotation.hpp"
 #include "reckon/simulation/placement.hpp"
+#include "reckon/simulation/stage_setup.hpp"
 #include "reckon/simulation/time_step.hpp"
 
 namespace reckon {
@@ -41,7 +43,11 @@ class Loader {
     if (reading_.faults.empty() && scene.grains.empty()) {
       fault("grains", "the scene has no grains", "Place at least one.");
     }
-    if (reading_.faults.empty()) check_time_step(scene);
+    if (reading_.faults.empty()) {
+      resolve_rate_limits(scene.config, scene.grains, scene.shapes);
+      check_time_step(scene);
+      StageCheck{scene, [&](auto&&... text) { fault(text...); }}.run();
+    }
     std::stable_sort(
         reading_.faults.begin(), reading_.faults.end(),
         [](const SceneFault& a, const SceneFault& b) { return a.position < b.position; });
@@ -53,17 +59,24 @@ class Loader {
   void check_time_step(const LoadedScene& scene) {
     const TimeConfig& time = scene.config.time;
     const double step = choose_time_step(scene.config, scene.grains, scene.shapes).step;
-    const std::string key = time.duration ? "time.duration" : "time.steps";
+    const std::string key = !scene.config.stages.empty() ? "stage"
+                            : time.duration              ? "time.duration"
+                                                         : "time.steps";
     if (!(step > 0 && std::isfinite(step))) {
       return fault(key, fmt::format("the rule for the time step gives {}", step),
                    "Where no grain moves freely, give time.step.");
     }
     constexpr double most_steps = 1e15;
-    if (time.duration && *time.duration / step > most_steps) {
-      fault(key,
+    const auto check_duration = [&](const std::string& of, const std::optional<double>& duration) {
+      if (!duration || !(*duration / step > most_steps)) return;
+      fault(of,
             fmt::format("needs {:.3g} steps of {:.3g} s, more than any machine can make",
-                        *time.duration / step, step),
+                        *duration / step, step),
             {});
+    };
+    check_duration(key, time.duration);
+    for (std::size_t n = 0; n < scene.config.stages.size(); ++n) {
+      check_duration(fmt::format("stage[{}].duration", n), scene.config.stages[n].duration);
     }
   }
 

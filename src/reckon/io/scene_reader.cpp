@@ -142,6 +142,12 @@ class Reader {
     std::array<double, 3> read{};
     if (numbers(key, read, "[x, y, z]")) value = {read[0], read[1], read[2]};
   }
+  void vector(const SceneKey& key, std::optional<Vec3>& value) {
+    Vec3 read;
+    const bool there = given(key.name);
+    vector(key, read);
+    if (there && !faulty(key.name)) value = read;
+  }
   void quaternion(const SceneKey& key, std::vector<double>& value) {
     std::array<double, 4> read{};
     if (!numbers(key, read, "[w, x, y, z]")) return;
@@ -472,6 +478,7 @@ void resolve_defaults(SceneConfig& scene) {
   }
   for (WallConfig& wall : scene.walls) {
     if (!wall.friction) wall.friction = scene.material.friction;
+    if (scene.contact.law == ContactLawKind::hertz) continue;  // knows no stiffness
     if (!wall.normal_stiffness) wall.normal_stiffness = scene.contact.normal_stiffness;
     if (!wall.shear_stiffness) wall.shear_stiffness = scene.contact.shear_stiffness;
   }

@@ -39,6 +39,7 @@ class Collector {
   void vector(const SceneKey& key, Vec3& value) {
     add(key, "3 numbers", fmt::format("[{}, {}, {}]", value.x, value.y, value.z));
   }
+  void vector(const SceneKey& key, std::optional<Vec3>&) { add(key, "3 numbers", "none"); }
   void quaternion(const SceneKey& key, std::vector<double>& value) {
     add(key, "4 numbers", fmt::format("[{}]", fmt::join(value, ", ")));
   }

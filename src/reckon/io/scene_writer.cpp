@@ -74,6 +74,9 @@ class Writer {
   void vector(const SceneKey& key, Vec3& value) {
     line(key, toml_numbers(std::array{value.x, value.y, value.z}), key.unit == "1" ? "" : key.unit);
   }
+  void vector(const SceneKey& key, std::optional<Vec3>& value) {
+    if (value) vector(key, *value);
+  }
   void quaternion(const SceneKey& key, std::vector<double>& value) {
     line(key, toml_numbers(value));
   }

@@ -14,6 +14,21 @@ struct Mat3 {
   friend constexpr bool operator==(const Mat3&, const Mat3&) = default;
 };
 
+constexpr Mat3& operator+=(Mat3& a, const Mat3& b) {
+  a.row_x += b.row_x;
+  a.row_y += b.row_y;
+  a.row_z += b.row_z;
+  return a;
+}
+[[nodiscard]] constexpr Mat3 operator*(double factor, const Mat3& m) {
+  return {factor * m.row_x, factor * m.row_y, factor * m.row_z};
+}
+/// Row i, column j is a_i b_j.
+[[nodiscard]] constexpr Mat3 outer(const Vec3& a, const Vec3& b) {
+  return {a.x * b, a.y * b, a.z * b};
+}
+[[nodiscard]] constexpr double trace(const Mat3& m) { return m.row_x.x + m.row_y.y + m.row_z.z; }
+
 [[nodiscard]] constexpr Vec3 operator*(const Mat3& m, const Vec3& v) {
   return {dot(m.row_x, v), dot(m.row_y, v), dot(m.row_z, v)};
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reckon/boundary/wall.hpp"
+#include "reckon/boundary/wall_control.hpp"
 #include "reckon/contact/contact_settings.hpp"
 #include "reckon/contact/simd_level.hpp"
 #include "reckon/domain/decomposition.hpp"
@@ -27,12 +28,14 @@ struct MaterialConfig {
   double friction{0.5};  ///< Coulomb coefficient between grains, >= 0
 };
 
-enum class ContactLawKind { linear, area };
+enum class ContactLawKind { linear, area, hertz };
 /// How touching nodes push. See algorithms in docs/theory.
 struct ContactConfig {
   ContactLawKind law{ContactLawKind::area};
   double normal_stiffness{0};  ///< linear: k_n [N/m] per node; area: k_n [N/m^3]; > 0, no default
   double shear_stiffness{0};   ///< same unit; > 0; io defaults it to 0.9 k_n
+  double young_modulus{0};     ///< hertz: of the grains [Pa], > 0, no default
+  double poisson_ratio{0.2};   ///< hertz: of the grains, in [0, 0.5]
   std::optional<double> restitution;  ///< in (0, 1): adds a normal dashpot; absent: none
   double viscosity{0};                ///< area: a further normal dashpot per area [N s/m^3], >= 0
   std::optional<std::uint32_t>
@@ -123,6 +126,40 @@ struct TimeConfig {
   std::optional<double> stop_at_unbalanced_ratio;  ///< ends the run early when at rest
 };
 
+/// What moves planes during a stage; see WallControl.
+struct ControlConfig {
+  std::string wall;  ///< a plane, a side of a box, or a pair of sides
+  WallTarget target{WallTarget::stress};
+  double value{0};                   ///< [Pa], [1/s] or [m/s]
+  double gain{0.3};                  ///< stress: of the servo, in (0, 1)
+  std::optional<double> rate_limit;  ///< stress: [1/s]; io fills it in
+};
+
+/// When a stage ends before its time: all that is given must hold at once.
+struct StageGoal {
+  std::optional<double> unbalanced_ratio;  ///< below
+  std::optional<double> stress_error;      ///< of all servos, relative
+  std::optional<double> strain;            ///< of some axis, since the stage began
+  std::optional<double> stress_above;      ///< on the walls that are driven [Pa]
+  std::optional<double> stress_below;      ///< likewise [Pa]
+  std::optional<double> void_ratio;        ///< not above
+};
+
+/// One stage of a test. What is absent is as for the whole scene.
+struct StageConfig {
+  std::string name;
+  std::optional<std::uint64_t> steps;  ///< at most; either this or duration
+  std::optional<double> duration;      ///< [s]
+  std::optional<StageGoal> until;
+  std::optional<double> friction;
+  std::optional<double> wall_friction;
+  std::optional<Vec3> gravity;    ///< [m/s^2]
+  std::optional<double> damping;  ///< [1/s]
+  std::optional<std::uint64_t> history_interval;
+  std::optional<std::uint64_t> fields_interval;
+  std::vector<ControlConfig> controls;
+};
+
 struct NeighborConfig {
   double skin{0.1};  ///< as a fraction of the smallest bounding radius, > 0
   ContactEngine engine{ContactEngine::near};  ///< changes speed, never results
@@ -137,6 +174,7 @@ struct ParallelConfig {
 struct OutputConfig {
   std::uint64_t history_interval{100};   ///< steps; 0: never
   std::uint64_t fields_interval{0};      ///< steps between ParaView files; 0: only start and end
+  bool sample{false};                    ///< stress, strain, fabric in the history
   bool contacts{true};                   ///< write contacts beside grains
   bool surfaces{false};                  ///< write true grain surfaces beside grains
   std::uint64_t checkpoint_interval{0};  ///< steps; 0: only at the end
@@ -151,6 +189,7 @@ struct SceneConfig {
   std::vector<WallConfig> walls;
   std::vector<OutflowConfig> outflows;
   std::vector<GrainsConfig> grains;
+  std::vector<StageConfig> stages;
   TimeConfig time;
   NeighborConfig neighbor;
   ParallelConfig parallel;

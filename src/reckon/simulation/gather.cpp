@@ -111,6 +111,10 @@ SimulationState Simulation::state() {
         return WallSprings{key.grain, key.wall, {}};
       });
   state.departed = gather(ranks, departed_);
+  if (ranks.is_root()) {
+    state.driven_walls = driven_walls_;
+    state.stage_starts = stage_starts_;
+  }
   std::sort(state.departed.begin(), state.departed.end(),
             [](const DepartedGrain& a, const DepartedGrain& b) { return a.grain.id < b.grain.id; });
   std::sort(state.pair_springs.begin(), state.pair_springs.end(),

@@ -1,24 +1,15 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "reckon/core/exact_sum.hpp"
 #include "reckon/parallel/threads.hpp"
+#include "reckon/simulation/exact_totals.hpp"
 #include "reckon/simulation/simulation.hpp"
 
 namespace reckon {
 namespace {
-
-struct ExactVec3 {
-  ExactSum x, y, z;
-  void add(const Vec3& v) {
-    x.add(v.x);
-    y.add(v.y);
-    z.add(v.z);
-  }
-  [[nodiscard]] Vec3 value() const { return {x.value(), y.value(), z.value()}; }
-};
 
 /// What is summed over all grains, pairs and walls.
 struct Sums {
@@ -35,24 +26,14 @@ struct Sums {
                                  &friction,    &dashpot,    &damping,        &body_work,
                                  &wall_work,   &net_force,  &contact_force,  &momentum.x,
                                  &momentum.y,  &momentum.z, &departed_energy};
-    for (ExactVec3& wall : on_walls) exact.insert(exact.end(), {&wall.x, &wall.y, &wall.z});
-    std::vector<std::int64_t> digits{grains, contacts, wall_contacts, touching_nodes, departed};
-    const std::size_t counts = digits.size();
-    for (ExactSum* sum : exact) {
-      sum->carry();
-      digits.insert(digits.end(), sum->digits().begin(), sum->digits().end());
-    }
-    ranks.sum(digits);
-    grains = digits[0];
-    contacts = digits[1];
-    wall_contacts = digits[2];
-    touching_nodes = digits[3];
-    departed = digits[4];
-    auto next = digits.begin() + static_cast<std::ptrdiff_t>(counts);
-    for (ExactSum* sum : exact) {
-      std::copy_n(next, ExactSum::digit_count, sum->digits().begin());
-      next += ExactSum::digit_count;
-    }
+    for (ExactVec3& wall : on_walls) wall.list(exact);
+    std::array<std::int64_t, 5> counts{grains, contacts, wall_contacts, touching_nodes, departed};
+    add_up(ranks, exact, counts);
+    grains = counts[0];
+    contacts = counts[1];
+    wall_contacts = counts[2];
+    touching_nodes = counts[3];
+    departed = counts[4];
   }
 };
 

@@ -6,16 +6,23 @@
 #include <cmath>
 #include <limits>
 
+#include "reckon/simulation/stage_setup.hpp"
+
 namespace reckon {
 namespace {
 
 /// The node cap belongs to pairs of grains: the published code does not apply it to walls.
 AnyContactLaw make_law(const ContactConfig& contact, double normal_stiffness,
-                       double shear_stiffness, bool dashpot, std::uint32_t node_cap) {
+                       double shear_stiffness, bool dashpot, std::uint32_t node_cap,
+                       bool rigid_wall) {
   const bool damped = dashpot && contact.restitution.has_value();
   if (contact.law == ContactLawKind::linear) {
     return LinearLaw{normal_stiffness, shear_stiffness,
                      damped ? linear_dashpot_factor(*contact.restitution) : 0, node_cap};
+  }
+  if (contact.law == ContactLawKind::hertz) {
+    return hertz_law(contact.young_modulus, contact.poisson_ratio, rigid_wall,
+                     damped ? hertz_dashpot_factor(*contact.restitution) : 0);
   }
   return AreaLaw{normal_stiffness, shear_stiffness,
                  damped ? area_dashpot_factor(*contact.restitution) : 0,
@@ -44,12 +51,14 @@ std::vector<std::pair<std::string, WallSurface>> surfaces(const WallConfig& wall
   return {sides.begin(), sides.end()};
 }
 
+}  // namespace
+
 std::vector<Wall> make_walls(const SceneConfig& scene) {
   std::vector<Wall> walls;
   for (const WallConfig& config : scene.walls) {
-    const AnyContactLaw law =
-        make_law(scene.contact, config.normal_stiffness.value_or(scene.contact.normal_stiffness),
-                 config.shear_stiffness.value_or(scene.contact.shear_stiffness), config.dashpot, 0);
+    const AnyContactLaw law = make_law(
+        scene.contact, config.normal_stiffness.value_or(scene.contact.normal_stiffness),
+        config.shear_stiffness.value_or(scene.contact.shear_stiffness), config.dashpot, 0, true);
     for (const auto& [suffix, surface] : surfaces(config)) {
       walls.push_back({config.name + suffix, surface, law,
                        config.friction.value_or(scene.material.friction), config.shortened_lever,
@@ -58,8 +67,6 @@ std::vector<Wall> make_walls(const SceneConfig& scene) {
   }
   return walls;
 }
-
-}  // namespace
 
 std::vector<PlaneSurface> outflow_planes(const SceneConfig& scene) {
   std::vector<PlaneSurface> planes;
@@ -90,7 +97,7 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
       .density = config.material.density,
       .contact = {make_law(config.contact, config.contact.normal_stiffness,
                            config.contact.shear_stiffness, true,
-                           config.contact.node_cap.value_or(0)),
+                           config.contact.node_cap.value_or(0), false),
                   config.material.friction, config.contact.master},
       .walls = make_walls(config),
       .outflows = outflow_planes(config),
@@ -98,14 +105,19 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
                      config.body.random_interval, config.seed, scene.own_accelerations},
       .damping = config.body.damping,
       .time_step = prepared.time_step.step,
+      .stages = {},
       .skin = config.neighbor.skin * smallest_radius,
       .engine = config.neighbor.engine,
       .simd = resolve(config.neighbor.simd),
       .decomposition = config.parallel.decomposition,
   };
+  prepared.setup.stages = make_stages(config, prepared.setup.walls);
   prepared.initial.grains = scene.grains;
   prepared.steps = config.time.steps.value_or(static_cast<std::uint64_t>(
       std::ceil(config.time.duration.value_or(0) / prepared.time_step.step * (1 - 1e-12))));
+  for (const StageConfig& stage : config.stages) {
+    prepared.steps += most_steps(stage, prepared.time_step.step);
+  }
   return prepared;
 }
 

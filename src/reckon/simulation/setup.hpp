@@ -27,11 +27,14 @@ struct PreparedScene {
   SimulationSetup setup;
   SimulationState initial;
   TimeStepChoice time_step;
-  std::uint64_t steps{0};  ///< how many to run from the start
+  std::uint64_t steps{0};  ///< how many to run from the start; with stages, at most
 };
 
 /// All planes of the scene's outflows; a grain leaves when its centre is behind one.
 [[nodiscard]] std::vector<PlaneSurface> outflow_planes(const SceneConfig& scene);
+
+/// The walls of a scene; boxes are six of them, or five.
+[[nodiscard]] std::vector<Wall> make_walls(const SceneConfig& scene);
 
 /// Turns config into walls, laws and a time step. `scene.config` is already validated. Collective:
 /// all ranks pass the same scene, but only the root's grains count.

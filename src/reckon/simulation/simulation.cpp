@@ -50,6 +50,7 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
   grain_contacts_.adopt(state.pair_springs);
   wall_contacts_.adopt(state.wall_springs);
   departed_ = state.departed;
+  take_over_walls_and_stages(state);
   costs_.assign(grains_.size(), 1.0);
 }
 
@@ -60,6 +61,7 @@ void Simulation::step() {
   sum_loads(grains_.ledger);
   phase_times_.loads += watch.lap();
   advance_grains();
+  advance_walls();
   commit_springs();
   ++step_;
   count_work();
@@ -73,7 +75,7 @@ void Simulation::step() {
 void Simulation::bring_up_to_date() {
   receive_ghosts();
   Stopwatch watch;
-  wall_contacts_.move_walls(step_, setup_.time_step);
+  wall_contacts_.move_walls(driven_walls_, step_, setup_.time_step);
   if (lists_are_stale_) {
     let_grains_out();
     distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_, costs_,
@@ -225,9 +227,9 @@ bool Simulation::some_budget_is_used_up() const {
   const auto used_up = [](const Listed& listed, const Vec3& place) {
     return !(squared_norm(place - listed.place) < listed.budget * listed.budget);
   };
+  const auto poses = poses_at(setup_.walls, driven_walls_, step_, setup_.time_step);
   for (std::size_t w = 0; w < listed_walls_.size(); ++w) {
-    const WallPose pose = pose_at(setup_.walls[w], step_, setup_.time_step);
-    if (used_up(listed_walls_[w], pose.displacement)) return true;
+    if (used_up(listed_walls_[w], poses[w].displacement)) return true;
   }
   return parallel_max(grains_.size(), 0, [&](std::size_t slot) {
            return used_up(listed_grains_[slot], grains_.position[slot]) ? 1.0 : 0.0;

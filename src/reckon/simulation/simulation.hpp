@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "reckon/boundary/wall_contacts.hpp"
+#include "reckon/boundary/wall_control.hpp"
 #include "reckon/contact/grain_contacts.hpp"
 #include "reckon/domain/shape_store.hpp"
 #include "reckon/grains/grain_frame.hpp"
@@ -20,6 +22,16 @@
 
 namespace reckon {
 
+/// What holds for one stage of a test.
+struct StageSetup {
+  std::string name;
+  double friction{0};                 ///< between grains
+  std::vector<double> wall_friction;  ///< by wall
+  Vec3 gravity;                       ///< [m/s^2]
+  double damping{0};                  ///< global damping xi [1/s]
+  std::vector<WallControl> controls;
+};
+
 /// What stays the same from the first step to the last.
 struct SimulationSetup {
   ShapeStore shapes;
@@ -30,6 +42,8 @@ struct SimulationSetup {
   BodyForce body_force;
   double damping{0};    ///< global damping xi [1/s]
   double time_step{0};  ///< [s]
+  /// What takes turns: a stage sets friction, gravity and damping anew. Empty: no stages.
+  std::vector<StageSetup> stages;
   double skin{0};  ///< of the pair lists (MotionBudget); changes the speed, never the answer [m]
   ContactEngine engine{ContactEngine::near};                     ///< likewise
   SimdLevel simd{SimdLevel::automatic};                          ///< likewise
@@ -51,6 +65,10 @@ struct SimulationState {
   std::vector<PairSprings> pair_springs;  ///< sorted by ids
   std::vector<WallSprings> wall_springs;  ///< sorted by grain, then wall
   std::vector<DepartedGrain> departed;    ///< sorted by id
+  std::vector<DrivenWall> driven_walls;   ///< by wall; empty at the start
+  /// The step at which each stage so far began; the last is under way. Empty without stages, and
+  /// at the start.
+  std::vector<std::uint64_t> stage_starts;
 
   friend bool operator==(const SimulationState&, const SimulationState&) = default;
 };
@@ -80,6 +98,9 @@ class Simulation {
   /// when a grain's motion is no longer a number.
   void step();
 
+  /// Ends the stage under way and begins the next, from the current step on. Collective.
+  void begin_next_stage();
+
   /// What holds at the current step, on all ranks. Collective. Changes nothing.
   [[nodiscard]] Measurement measure();
   /// The contacts at the current step, pairs sorted by ids, then walls. Collective; whole on the
@@ -100,6 +121,20 @@ class Simulation {
   [[nodiscard]] std::span<const ShapeView> shapes() const { return shapes_; }
   [[nodiscard]] std::uint64_t step_number() const { return step_; }
   [[nodiscard]] double time() const { return static_cast<double>(step_) * setup_.time_step; }
+  /// The stage under way; nothing without stages.
+  [[nodiscard]] const StageSetup* stage() const {
+    return setup_.stages.empty() ? nullptr : &setup_.stages[stage_starts_.size() - 1];
+  }
+  /// The step at which each stage so far began.
+  [[nodiscard]] std::span<const std::uint64_t> stage_starts() const { return stage_starts_; }
+  /// What controls have made of the walls.
+  [[nodiscard]] std::span<const DrivenWall> driven_walls() const { return driven_walls_; }
+  /// The walls where the stage under way began.
+  [[nodiscard]] std::vector<WallPose> poses_at_stage_start() const;
+  /// What the walls feel as of the last evaluation, summed over all ranks. Collective.
+  [[nodiscard]] std::vector<WallReaction> wall_reactions() const;
+  /// Where the grains of this rank are, then its ghosts, as of the last evaluation.
+  [[nodiscard]] std::span<const GrainFrame> frames() const { return frames_; }
   [[nodiscard]] std::uint64_t list_rebuilds() const { return list_rebuilds_; }
   [[nodiscard]] const PhaseTimes& phase_times() const { return phase_times_; }
   [[nodiscard]] const GrainContacts& grain_contacts() const { return grain_contacts_; }
@@ -123,7 +158,10 @@ class Simulation {
     return std::span{frames_}.first(grains_.size());
   }
   void sum_loads(std::span<EnergyLedger> ledgers);
+  void take_over_walls_and_stages(const SimulationState& state);
+  void apply_stage();
   void advance_grains();
+  void advance_walls();
   void commit_springs();
   void agree_on_what_comes();
 
@@ -148,6 +186,8 @@ class Simulation {
   WallContacts wall_contacts_;
   std::vector<DepartedGrain> departed_;  // on this rank
   std::uint64_t step_{0};
+  std::vector<DrivenWall> driven_walls_;  // the same on all ranks
+  std::vector<std::uint64_t> stage_starts_;
 
   /// Where a grain was, or a wall's displacement, when the lists were made, and how far it may go.
   struct Listed {

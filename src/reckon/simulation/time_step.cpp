@@ -16,6 +16,11 @@ double contact_stiffness(const ContactConfig& contact, double normal_stiffness, 
   if (contact.law == ContactLawKind::area) {
     return normal_stiffness * touching_share * shape.node_area;
   }
+  if (contact.law == ContactLawKind::hertz) {
+    PairContext context;
+    context.total_area = touching_share * shape.node_area;
+    return hertz_law(contact.young_modulus, contact.poisson_ratio, true, 0).pair_stiffness(context);
+  }
   const double nodes = capped ? static_cast<double>(*contact.node_cap)
                               : touching_share * static_cast<double>(shape.outline.nodes);
   return normal_stiffness * std::max(nodes, 1.0);

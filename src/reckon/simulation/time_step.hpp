@@ -25,6 +25,7 @@ struct TimeStepChoice {
 /// really has. Law `area`: k_n times a twentieth of the surface, as a sphere has that overlaps by a
 /// tenth of its radius. Law `linear`: k_n times a twentieth of the nodes, or, where there are no
 /// walls, times node_cap. Walls count with their own stiffness.
+/// Law `hertz`: 2 E* a on a wall, with a twentieth of the surface in touch.
 [[nodiscard]] TimeStepChoice choose_time_step(const SceneConfig& scene,
                                               std::span<const GrainState> grains,
                                               std::span<const ShapeSummary> shapes);

@@ -185,5 +185,20 @@ TEST_F(GrainsCommand, FaultsSayWhatToDo) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+TEST_F(GrainsCommand, SpheresHaveTheNamesAndVolumesOfTheGrains) {
+  (void)grains({"generate", "--count", "3", "--seed", "2", "--d50", "1mm", "-o", path("sand.h5")});
+  (void)grains({"spheres", path("sand.h5"), "-o", path("spheres.h5")});
+  const ShapeLibrary sand = load_library(path("sand.h5"));
+  const ShapeLibrary spheres = load_library(path("spheres.h5"));
+  ASSERT_EQ(spheres.size(), sand.size());
+  for (std::size_t n = 0; n < sand.size(); ++n) {
+    EXPECT_EQ(spheres[n].name, sand[n].name);
+    EXPECT_NEAR(spheres[n].mass.volume / sand[n].mass.volume, 1, 2e-3);
+    const Vec3& inertia = spheres[n].mass.inertia;
+    EXPECT_NEAR(inertia.x / inertia.z, 1, 1e-2);
+    EXPECT_LT(spheres[n].bounding_radius, sand[n].bounding_radius);
+  }
+}
+
 }  // namespace
 }  // namespace reckon::app

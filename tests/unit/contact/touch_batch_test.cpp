@@ -95,6 +95,11 @@ TEST(TouchBatch, LinearLawAnswersAsOneNodeAfterTheOther) {
   expect_same_bits(LinearLaw{1e5, 9e4, 0, 0});
 }
 
+TEST(TouchBatch, HertzLawAnswersAsOneNodeAfterTheOther) {
+  expect_same_bits(hertz_law(1e8, 0.2, false, 0.3));
+  expect_same_bits(hertz_law(1e8, 0.2, false, 0));
+}
+
 TEST(TouchBatch, AreaLawAnswersAsOneNodeAfterTheOther) {
   expect_same_bits(AreaLaw{1e8, 5e7, 0.3, 2e4});
   expect_same_bits(AreaLaw{1e8, 5e7, 0, 0});

@@ -39,12 +39,13 @@ class HistoryTest : public ::testing::Test {
 
 TEST_F(HistoryTest, NumbersReadBackAsTheSameBits) {
   {
-    HistoryFile file{path_, walls};
-    file.append(measurement_at(3), 0.25);
+    HistoryFile file{path_, {walls}};
+    const Measurement measured = measurement_at(3);
+    file.append({.measurement = measured, .energy_at_start = 0.25});
   }
   const HistoryTable table = read_history(path_);
   ASSERT_EQ(table.rows.size(), 1U);
-  ASSERT_EQ(table.header.size(), history_columns(walls).size());
+  ASSERT_EQ(table.header.size(), history_columns({walls}).size());
   const auto cell = [&](const std::string& name) {
     for (std::size_t c = 0; c < table.header.size(); ++c) {
       if (table.header[c] != name) continue;
@@ -68,22 +69,26 @@ TEST_F(HistoryTest, NumbersReadBackAsTheSameBits) {
 
 TEST_F(HistoryTest, GoesOnFromTheRowsThatAreKept) {
   {
-    HistoryFile file{path_, walls};
-    for (const std::uint64_t step : {0U, 10U, 20U, 30U}) file.append(measurement_at(step), 0);
+    HistoryFile file{path_, {walls}};
+    for (const std::uint64_t step : {0U, 10U, 20U, 30U}) {
+      const Measurement measured = measurement_at(step);
+      file.append({.measurement = measured});
+    }
   }
   const std::string whole = read_file(path_);
   std::ofstream{path_, std::ios::app} << "40,4.0,0.33";  // a row cut short by a power failure
   {
-    HistoryFile file{path_, walls, [](std::uint64_t step) { return step <= 20; }};
-    file.append(measurement_at(30), 0);
+    HistoryFile file{path_, {walls}, [](std::uint64_t step) { return step <= 20; }};
+    const Measurement measured = measurement_at(30);
+    file.append({.measurement = measured});
   }
   EXPECT_EQ(read_file(path_), whole);
 }
 
 TEST_F(HistoryTest, RefusesAnotherHeaderAndRaggedRows) {
-  { HistoryFile file{path_, walls}; }
+  { HistoryFile file{path_, {walls}}; }
   const auto all = [](std::uint64_t) { return true; };
-  EXPECT_THROW((HistoryFile{path_, std::span{walls}.first(1), all}), Error);
+  EXPECT_THROW((HistoryFile{path_, {std::span{walls}.first(1)}, all}), Error);
   std::ofstream{path_, std::ios::app} << "1,2\n";
   EXPECT_THROW((void)read_history(path_), Error);
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/core/file.hpp"
@@ -67,6 +68,44 @@ motion = { velocity = [0, 0, -0.4] }
   static constexpr const char* usual =
       "[time]\nsteps = 600\n[output]\nhistory_interval = 25\nfields_interval = 100\n"
       "checkpoint_interval = 150\n";
+
+  /// The same grains in a box with a lid, pressed, sheared and pulled in three stages.
+  static constexpr const char* stages = R"(
+[[stage]]
+name = "press"
+steps = 700
+until = { stress_error = 0.5, unbalanced_ratio = 0.9 }
+friction = 0.1
+gravity = [0, 0, 0]
+damping = 200
+history_interval = 20
+control = [{ wall = "box", stress = "200 kPa", rate_limit = 150 }]
+[[stage]]
+name = "shear"
+steps = 333
+fields_interval = 50
+control = [{ wall = "box.x", stress = "200 kPa" }, { wall = "box.z", strain_rate = 40 }]
+[[stage]]
+name = "back"
+steps = 1000
+until = { strain = 0.004 }
+control = [{ wall = "box.z", speed = "-0.2 m/s" }]
+[output]
+history_interval = 25
+checkpoint_interval = 150
+sample = true
+)";
+  static std::string staged(const std::string& tables = stages) {
+    std::string text = scene_text("");
+    for (const auto& [from, to] : {std::pair<std::string, std::string>{", open_top = true", ""},
+                                   {"[[wall]]\nname = \"plate\"\nplane = { point = [0, 0, \"20 "
+                                    "mm\"], normal = [0, 0, -1] }\n"
+                                    "motion = { velocity = [0, 0, -0.4] }\n",
+                                    ""}}) {
+      text.replace(text.find(from), from.size(), to);
+    }
+    return text + tables;
+  }
 
   [[nodiscard]] SceneReading read(const std::string& text) const {
     SceneReading reading = read_scene_text(text, root_);

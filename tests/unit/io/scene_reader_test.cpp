@@ -167,7 +167,7 @@ TEST_F(SceneReaderTest, ListsAllFaultsOfAnInputInOneGo) {
                 "4:11: material.density: -1 is out of range, must be above 0",
                 "5:1: material.frction: unknown key",
                 "6:1: contact.normal_stiffness: is missing",
-                "7:7: contact.law: \"aera\" is none of \"area\", \"linear\"",
+                "7:7: contact.law: \"aera\" is none of \"area\", \"linear\", \"hertz\"",
                 "8:12: contact.node_cap: expected a whole number, found a number",
                 "10:11: grains[0].library: there is no file \"" +
                     (directory_ / "dust.h5").string() + "\"",
@@ -247,6 +247,31 @@ TEST_F(SceneReaderTest, RefusesContradictions) {
               "7:12: wall[0].motion.amplitude: `amplitude` and `frequency` go together: both "
               "above zero or neither",
               "7:46: wall[0].motion.stop: `start` must come before `stop`"}));
+}
+
+TEST_F(SceneReaderTest, HertzTakesElasticConstantsInsteadOfStiffness) {
+  const std::string rest =
+      "[[grains]]\nlibrary = 'sand.h5'\nfill = { count = 5, box = { low = [0, 0, 0], high = [1, 1, "
+      "1] "
+      "} }\n[[wall]]\nname = 'floor'\nplane = { point = [0, 0, 0], normal = [0, 0, 1] }\n"
+      "[time]\nsteps = 3\n";
+  const SceneReading reading = read_scene_text(
+      "[contact]\nlaw = 'hertz'\nyoung_modulus = '70 GPa'\npoisson_ratio = 0.3\n" + rest,
+      directory_);
+  for (const SceneFault& fault : reading.faults) ADD_FAILURE() << describe(fault, "scene.toml");
+  EXPECT_EQ(reading.config.contact.young_modulus, 70e9);
+  const SceneReading again = read_scene_text(write_scene(reading.config), "/");
+  for (const SceneFault& fault : again.faults) ADD_FAILURE() << describe(fault, "scene.toml");
+  EXPECT_EQ(again.config.contact.poisson_ratio, 0.3);
+
+  const auto first_fault = [&](const std::string& contact) {
+    return read_scene_text("[contact]\n" + contact + rest, directory_).faults.at(0).problem;
+  };
+  EXPECT_EQ(first_fault("law = 'hertz'\n"), "is missing");
+  EXPECT_EQ(first_fault("law = 'hertz'\nyoung_modulus = 1e9\nnormal_stiffness = 1e9\n"),
+            "law `hertz` takes no stiffness but `young_modulus` and `poisson_ratio`");
+  EXPECT_EQ(first_fault("normal_stiffness = 1e9\npoisson_ratio = 0.1\n"),
+            "`young_modulus` and `poisson_ratio` belong to law `hertz`");
 }
 
 TEST_F(SceneReaderTest, MissingTablesAreNamedByTheirRequiredKeys) {

@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/analysis/sample.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "reckon/boundary/enclosure.hpp"
+#include "reckon/math/portable.hpp"
+#include "reckon/simulation/exact_totals.hpp"
+
+namespace reckon {
+namespace {
+
+/// What is summed over all ranks.
+struct Sums {
+  ExactMat3 pairs, wall_branches, on_walls;  // force (x) length [N m]
+  ExactMat3 normals, branches;
+  ExactSum solids, weighted_diameter;  // [m^3], [m^4]
+  ExactSum force, squared_force;       // [N], [N^2]
+  std::int64_t grains{0}, contacts{0}, with_normal{0}, degrees{0}, held{0}, held_degrees{0};
+
+  void reduce(const Communicator& ranks) {
+    std::vector<ExactSum*> exact{&solids, &weighted_diameter, &force, &squared_force};
+    for (ExactMat3* sum : {&pairs, &wall_branches, &on_walls, &normals, &branches}) {
+      sum->list(exact);
+    }
+    std::array<std::int64_t, 6> counts{grains, contacts, with_normal, degrees, held, held_degrees};
+    add_up(ranks, exact, counts);
+    grains = counts[0];
+    contacts = counts[1];
+    with_normal = counts[2];
+    degrees = counts[3];
+    held = counts[4];
+    held_degrees = counts[5];
+  }
+};
+
+/// Adds the contacts between grains that this rank tells of: those of its own first grains. Counts
+/// the contacts of each own grain, those with ghosts included. Returns the largest force [N].
+double add_pairs(const Simulation& simulation, Sums& sums, std::vector<std::int64_t>& degree) {
+  const GrainContacts& contacts = simulation.grain_contacts();
+  const std::size_t owned = degree.size();
+  double largest = 0;
+  for (std::size_t p = 0; p < contacts.pairs().size(); ++p) {
+    const Pair& pair = contacts.pairs()[p];
+    const PairForce& force = contacts.forces()[p];
+    if (force.touching == 0) continue;
+    if (pair.slot_a < owned) ++degree[pair.slot_a];
+    if (pair.slot_b < owned) ++degree[pair.slot_b];
+    if (pair.slot_a >= owned) continue;
+    const Vec3 branch =
+        simulation.frames()[pair.slot_a].position - simulation.frames()[pair.slot_b].position;
+    const double size = norm(force.force_on_a);
+    ++sums.contacts;
+    sums.pairs.add(outer(force.force_on_a, branch));
+    sums.branches.add(outer(normalized(branch), normalized(branch)));
+    sums.force.add(size);
+    sums.squared_force.add(size * size);
+    largest = std::max(largest, size);
+  }
+  return largest;
+}
+
+void add_normals(const Simulation& simulation, Sums& sums) {
+  const GrainContacts& contacts = simulation.grain_contacts();
+  const std::size_t owned = simulation.grains().size();
+  auto pair = contacts.pairs().begin();
+  for (const PairSprings& springs : contacts.springs()) {
+    while (pair->id_a != springs.id_a || pair->id_b != springs.id_b) ++pair;  // both sorted by ids
+    if (pair->slot_a >= owned) continue;
+    Vec3 normal;
+    for (const NodeSpring& spring : springs.springs) {
+      normal += spring.master_is_b ? -spring.normal : spring.normal;
+    }
+    ++sums.with_normal;
+    sums.normals.add(outer(normalized(normal), normalized(normal)));
+  }
+}
+
+void add_walls(const Simulation& simulation, const Vec3& origin, Sums& sums,
+               std::vector<std::int64_t>& degree) {
+  const WallContacts& contacts = simulation.wall_contacts();
+  for (std::size_t c = 0; c < contacts.candidates().size(); ++c) {
+    const WallForce& wall = contacts.forces()[c];
+    if (wall.touching == 0) continue;
+    const std::size_t slot = contacts.candidates()[c].slot;
+    ++degree[slot];
+    sums.wall_branches.add(wall.first_moment);
+    sums.on_walls.add(outer(wall.force, simulation.frames()[slot].position - origin));
+    sums.on_walls.add(wall.first_moment);
+  }
+}
+
+void add_grains(const Simulation& simulation, std::span<const std::int64_t> degree, Sums& sums) {
+  for (std::size_t slot = 0; slot < degree.size(); ++slot) {
+    const double volume = simulation.shapes()[simulation.grains().shape[slot].get()].mass.volume;
+    ++sums.grains;
+    sums.solids.add(volume);
+    sums.weighted_diameter.add(volume * portable::cbrt(6 / std::numbers::pi * volume));
+    sums.degrees += degree[slot];
+    if (degree[slot] < 2) continue;
+    ++sums.held;
+    sums.held_degrees += degree[slot];
+  }
+}
+
+Vec3 shortening(const Vec3& from, const Vec3& to) {
+  return {portable::log(from.x / to.x), portable::log(from.y / to.y), portable::log(from.z / to.z)};
+}
+
+/// The largest rate of strain by axis over the last step [1/s].
+double largest_rate(const Simulation& simulation, const Enclosure& now) {
+  const double dt = simulation.setup().time_step;
+  std::vector<WallPose> before(simulation.wall_contacts().poses().begin(),
+                               simulation.wall_contacts().poses().end());
+  for (WallPose& pose : before) pose.displacement -= dt * pose.velocity;
+  const auto space = enclosure_of(simulation.setup().walls, before);
+  if (!space) return 0;
+  const Vec3 rate = shortening(space->size(), now.size()) / dt;
+  return std::max({std::abs(rate.x), std::abs(rate.y), std::abs(rate.z)});
+}
+
+void fill_network(const Sums& sums, double largest_force, SampleMeasurement& result) {
+  const auto over = [](std::int64_t a, std::int64_t b) {
+    return b > 0 ? static_cast<double>(a) / static_cast<double>(b) : 0;
+  };
+  result.coordination = over(sums.degrees, sums.grains);
+  result.mechanical_coordination = over(sums.held_degrees, sums.held);
+  result.rattlers = static_cast<std::uint64_t>(sums.grains - sums.held);
+  if (sums.contacts == 0) return;
+  const auto count = static_cast<double>(sums.contacts);
+  result.branch_tensor = (1 / count) * sums.branches.value();
+  if (sums.with_normal > 0) {
+    result.contact_tensor = (1 / static_cast<double>(sums.with_normal)) * sums.normals.value();
+  }
+  result.mean_force = sums.force.value() / count;
+  if (!(result.mean_force > 0)) return;
+  const double variance =
+      sums.squared_force.value() / count - result.mean_force * result.mean_force;
+  result.force_variation = std::sqrt(std::max(variance, 0.0)) / result.mean_force;
+  result.largest_force = largest_force / result.mean_force;
+}
+
+}  // namespace
+
+SampleMeasurement measure_sample(const Simulation& simulation) {
+  SampleMeasurement result;
+  const auto space = enclosure_of(simulation.setup().walls, simulation.wall_contacts().poses());
+  const Vec3 centre = space ? 0.5 * (space->low + space->high) : Vec3{};
+  Sums sums;
+  std::vector<std::int64_t> degree(simulation.grains().size(), 0);
+  double largest_force = add_pairs(simulation, sums, degree);
+  add_normals(simulation, sums);
+  add_walls(simulation, centre, sums, degree);
+  add_grains(simulation, degree, sums);
+  const Communicator& ranks = simulation.distribution().ranks();
+  sums.reduce(ranks);
+  largest_force = ranks.max(largest_force);
+  fill_network(sums, largest_force, result);
+  if (!space) return result;
+
+  result.enclosed = true;
+  result.volume = space->volume;
+  result.size = space->size();
+  const double solids = sums.solids.value();
+  if (solids > 0) result.void_ratio = (space->volume - solids) / solids;
+  if (const auto start =
+          enclosure_of(simulation.setup().walls, simulation.poses_at_stage_start())) {
+    result.strain = shortening(start->size(), space->size());
+    result.volumetric_strain = portable::log(start->volume / space->volume);
+  }
+  // The walls' forces on grains point inward, their levers outward.
+  Mat3 inside = sums.pairs.value();
+  inside += -1.0 * sums.wall_branches.value();
+  result.stress = (1 / space->volume) * inside;
+  result.wall_stress = (-1 / space->volume) * sums.on_walls.value();
+  result.invariants = invariants(result.stress);
+  if (result.invariants.mean > 0 && solids > 0) {
+    const double diameter = sums.weighted_diameter.value() / solids;
+    result.inertial_number = largest_rate(simulation, *space) * diameter *
+                             std::sqrt(simulation.setup().density / result.invariants.mean);
+  }
+  return result;
+}
+
+}  // namespace reckon

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "reckon/boundary/wall.hpp"
+
+namespace reckon {
+
+/// The space that walls close off, measured exactly where they stand.
+struct Enclosure {
+  double volume{0};  ///< [m^3]
+  Vec3 low;          ///< corners of its bounding box [m]
+  Vec3 high;
+  std::vector<double> areas;  ///< by wall, of the part that bounds the space [m^2]
+
+  [[nodiscard]] Vec3 size() const { return high - low; }
+};
+
+/// The space inside all planes, or inside one cylinder between planes at right angles to its axis.
+/// Nothing when that is not bounded, is empty, or is of a form whose volume is not known exactly: a
+/// cylinder cut by oblique planes, or several cylinders.
+[[nodiscard]] std::optional<Enclosure> enclosure_of(std::span<const Wall> walls,
+                                                    std::span<const WallPose> poses);
+
+}  // namespace reckon

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/io/stage_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "reckon/boundary/enclosure.hpp"
+#include "reckon/simulation/stage_setup.hpp"
+
+namespace reckon {
+
+StageCheck::StageCheck(const LoadedScene& scene, Fault fault)
+    : scene_{scene.config},
+      fault_{std::move(fault)},
+      walls_{make_walls(scene.config)},
+      closed_{enclosure_of(walls_, poses_at(walls_, {}, 0, 1)).has_value()} {}
+
+void StageCheck::run() {
+  for (std::size_t n = 0; n < scene_.stages.size(); ++n) {
+    const StageConfig& stage = scene_.stages[n];
+    const std::string key = fmt::format("stage[{}]", n);
+    std::vector<bool> controlled(walls_.size(), false);
+    for (std::size_t c = 0; c < stage.controls.size(); ++c) {
+      check_control(stage.controls[c], fmt::format("{}.control[{}]", key, c), controlled);
+    }
+    check_goal(stage, key);
+  }
+}
+
+void StageCheck::check_control(const ControlConfig& control, const std::string& key,
+                               std::vector<bool>& controlled) {
+  std::vector<WallId> planes;
+  for (const auto& group : planes_named(walls_, control.wall)) {
+    planes.insert(planes.end(), group.begin(), group.end());
+  }
+  if (planes.empty()) {
+    return fault_(key + ".wall",
+                  fmt::format("no plane or pair of planes is named \"{}\"", control.wall),
+                  known_planes());
+  }
+  for (const WallId plane : planes) {
+    if (controlled[plane.get()]) {
+      fault_(key + ".wall",
+             fmt::format("\"{}\" is moved by another control of this stage already",
+                         walls_[plane.get()].name),
+             "Give one control per plane.");
+    }
+    controlled[plane.get()] = true;
+  }
+  if (control.target != WallTarget::speed && !closed_) {
+    fault_(key, "needs walls that close off a space, which these do not",
+           "Close it: six planes, a box with its top, or a cylinder between two planes.");
+  }
+  if (control.target == WallTarget::stress && !control.rate_limit) {
+    fault_(key, "needs a `rate_limit`", "There is none by rule for a stress of zero.");
+  }
+}
+
+void StageCheck::check_goal(const StageConfig& stage, const std::string& key) {
+  if (!stage.until) return;
+  const StageGoal& goal = *stage.until;
+  const auto is_driven = [](const ControlConfig& c) { return c.target != WallTarget::stress; };
+  const auto& controls = stage.controls;
+  const bool driven = std::any_of(controls.begin(), controls.end(), is_driven);
+  const bool held = !std::all_of(controls.begin(), controls.end(), is_driven);
+  if ((goal.stress_above || goal.stress_below) && !driven) {
+    fault_(key + ".until", "asks for the stress on walls that are driven, but none is",
+           "Add a control with `strain_rate` or `speed`.");
+  }
+  if (goal.stress_error && !held) {
+    fault_(key + ".until", "asks how well servos hold their stress, but there is none",
+           "Add a control with `stress`.");
+  }
+  const bool needs_space = goal.strain || goal.stress_above || goal.stress_below || goal.void_ratio;
+  if (needs_space && !closed_) {
+    fault_(key + ".until", "needs walls that close off a space, which these do not", "");
+  }
+}
+
+std::string StageCheck::known_planes() const {
+  std::string names;
+  for (const Wall& wall : walls_) {
+    if (!std::holds_alternative<PlaneSurface>(wall.surface)) continue;
+    names += (names.empty() ? "" : ", ") + wall.name;
+  }
+  return names.empty() ? "The scene has no planes." : fmt::format("There are: {}.", names);
+}
+
+}  // namespace reckon

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/io/stage_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "reckon/analysis/shear_curve.hpp"
+
+namespace reckon {
+namespace {
+
+/// Numbers of a history by column and row.
+class Columns {
+ public:
+  explicit Columns(const HistoryTable& history) : history_{history} {}
+
+  [[nodiscard]] bool has(std::string_view name) const { return place(name).has_value(); }
+  [[nodiscard]] double at(std::size_t row, std::string_view name) const {
+    const std::string& cell = history_.rows[row][*place(name)];
+    double value = std::numeric_limits<double>::quiet_NaN();
+    std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    return value;
+  }
+
+ private:
+  [[nodiscard]] std::optional<std::size_t> place(std::string_view name) const {
+    const auto found = std::find(history_.header.begin(), history_.header.end(), name);
+    if (found == history_.header.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - history_.header.begin());
+  }
+
+  const HistoryTable& history_;
+};
+
+constexpr std::array axes{"x", "y", "z"};
+constexpr std::array tensor{"xx", "yy", "zz", "xy", "yz", "zx"};
+
+/// The axis that the sample has been compressed along most.
+std::string axial(const Columns& columns, std::size_t last_row) {
+  std::size_t most = 0;
+  const auto strain = [&](std::size_t axis) {
+    return columns.at(last_row, fmt::format("strain_{}", axes[axis]));
+  };
+  for (std::size_t axis = 1; axis < 3; ++axis) {
+    if (strain(axis) > strain(most)) most = axis;
+  }
+  return fmt::format("strain_{}", axes[most]);
+}
+
+/// The largest difference of the two stresses' components, over the mean stress.
+double disagreement(const Columns& columns, std::size_t row) {
+  double largest = 0;
+  for (const char* component : tensor) {
+    largest =
+        std::max(largest, std::abs(columns.at(row, fmt::format("stress_{}_Pa", component)) -
+                                   columns.at(row, fmt::format("wall_stress_{}_Pa", component))));
+  }
+  return largest / columns.at(row, "mean_stress_Pa");
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// `free_volume`: some walls give way, so that dilatancy means something.
+std::string paragraph(const std::string& name, bool free_volume, const Columns& columns,
+                      const std::vector<std::size_t>& rows) {
+  const std::string strain = axial(columns, rows.back());
+  std::vector<ShearPoint> curve;
+  std::vector<double> inertial_numbers;
+  std::vector<double> disagreements;
+  for (const std::size_t row : rows) {
+    curve.push_back({columns.at(row, strain), columns.at(row, "volumetric_strain"),
+                     columns.at(row, "friction_angle_deg")});
+    inertial_numbers.push_back(columns.at(row, "inertial_number"));
+    disagreements.push_back(disagreement(columns, row));
+  }
+  const auto summary = summarize(curve);
+  if (!summary) return {};
+  const auto dilatancy = [&](const char* words, double angle) {
+    return free_volume ? fmt::format("{}{:.1f} deg", words, angle) : std::string{};
+  };
+  std::string text = fmt::format("  {}: peak friction angle {:.1f} deg at {:.2f} % strain{}\n",
+                                 name, summary->peak_friction_angle, 100 * summary->strain_at_peak,
+                                 dilatancy(", dilatancy angle there ", summary->dilatancy_angle));
+  text += fmt::format("    at {:.1f} % strain: friction angle {:.1f} deg{}, void ratio {:.3f}\n",
+                      100 * curve.back().axial_strain, summary->final_friction_angle,
+                      dilatancy(", dilatancy angle ", summary->final_dilatancy_angle),
+                      columns.at(rows.back(), "void_ratio"));
+  text += fmt::format(
+      "    stress by contacts and by walls: {:.2g} % apart in the median row, {:.2g} % at most\n",
+      100 * median(disagreements),
+      100 * *std::max_element(disagreements.begin(), disagreements.end()));
+  const double inertial_number = median(inertial_numbers);
+  text += fmt::format(
+      "    inertial number {:.1g}{}\n", inertial_number,
+      inertial_number > quasi_static_inertial_number
+          ? fmt::format(": too fast to count as quasi-static (above {}); lower the rate",
+                        quasi_static_inertial_number)
+          : ": quasi-static");
+  return text;
+}
+
+}  // namespace
+
+std::string stage_note(const std::string& name, std::uint64_t steps, bool in_time,
+                       const Measurement& measurement, const SampleMeasurement& sample) {
+  std::string text = fmt::format("stage {} ended after {} steps", name, steps);
+  if (!in_time) text += ", its time being over before its goal was reached";
+  text += fmt::format(": unbalanced ratio {:.2g}", measurement.unbalanced_ratio);
+  if (sample.enclosed) {
+    text += fmt::format(", void ratio {:.3f}, mean stress {:.4g} Pa, coordination {:.2f}",
+                        sample.void_ratio, sample.invariants.mean, sample.coordination);
+  }
+  return text;
+}
+
+std::string stage_report(const SceneConfig& scene, const HistoryTable& history) {
+  const Columns columns{history};
+  if (!columns.has("stage") || !columns.has("inertial_number")) return {};
+  std::string text;
+  for (std::size_t n = 0; n < scene.stages.size(); ++n) {
+    const auto& controls = scene.stages[n].controls;
+    const auto held = std::count_if(controls.begin(), controls.end(), [](const ControlConfig& c) {
+      return c.target == WallTarget::stress;
+    });
+    if (static_cast<std::size_t>(held) == controls.size()) continue;
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < history.rows.size(); ++row) {
+      const bool known = columns.at(row, "mean_stress_Pa") > 0;
+      if (known && columns.at(row, "stage") == static_cast<double>(n + 1)) rows.push_back(row);
+    }
+    if (!rows.empty()) text += paragraph(scene.stages[n].name, held > 0, columns, rows);
+  }
+  return text;
+}
+
+}  // namespace reckon

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/simulation/stage_setup.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "reckon/core/exact_sum.hpp"
+#include "reckon/math/portable.hpp"
+
+namespace reckon {
+
+std::vector<std::vector<WallId>> planes_named(std::span<const Wall> walls, std::string_view name) {
+  const auto find = [&](const std::string& wanted) {
+    std::vector<WallId> found;
+    for (std::uint32_t w = 0; w < walls.size(); ++w) {
+      const bool is_plane = std::holds_alternative<PlaneSurface>(walls[w].surface);
+      if (walls[w].name == wanted && is_plane) found.emplace_back(w);
+    }
+    return found;
+  };
+  const auto find_pair = [&](const std::string& wanted) {
+    std::vector<WallId> found = find(wanted + "-");
+    const std::vector<WallId> high = find(wanted + "+");
+    found.insert(found.end(), high.begin(), high.end());
+    return found;
+  };
+  const std::string wanted{name};
+  if (const auto plane = find(wanted); !plane.empty()) return {plane};
+  if (const auto pair = find_pair(wanted); pair.size() == 2) return {pair};
+  std::vector<std::vector<WallId>> box;
+  for (const char* axis : {".x", ".y", ".z"}) {
+    if (auto pair = find_pair(wanted + axis); pair.size() == 2) box.push_back(std::move(pair));
+  }
+  if (box.size() != 3) box.clear();
+  return box;
+}
+
+double mean_diameter(std::span<const GrainState> grains, std::span<const ShapeSummary> shapes) {
+  ExactSum volumes;
+  ExactSum weighted;
+  for (const GrainState& grain : grains) {
+    const double volume = shapes[grain.shape.get()].outline.mass.volume;
+    volumes.add(volume);
+    weighted.add(volume * portable::cbrt(6 / std::numbers::pi * volume));
+  }
+  return weighted.value() / volumes.value();
+}
+
+double rate_at(double inertial_number, double stress, double diameter, double density) {
+  return inertial_number * std::sqrt(stress / density) / diameter;
+}
+
+void resolve_rate_limits(SceneConfig& scene, std::span<const GrainState> grains,
+                         std::span<const ShapeSummary> shapes) {
+  if (scene.stages.empty() || grains.empty()) return;
+  const double diameter = mean_diameter(grains, shapes);
+  for (StageConfig& stage : scene.stages) {
+    for (ControlConfig& control : stage.controls) {
+      if (control.target != WallTarget::stress || control.rate_limit || !(control.value > 0)) {
+        continue;
+      }
+      control.rate_limit =
+          rate_at(servo_inertial_number, control.value, diameter, scene.material.density);
+    }
+  }
+}
+
+std::vector<StageSetup> make_stages(const SceneConfig& scene, std::span<const Wall> walls) {
+  std::vector<StageSetup> stages;
+  for (const StageConfig& config : scene.stages) {
+    StageSetup stage{.name = config.name,
+                     .friction = config.friction.value_or(scene.material.friction),
+                     .gravity = config.gravity.value_or(scene.body.gravity),
+                     .damping = config.damping.value_or(scene.body.damping)};
+    for (const Wall& wall : walls) {
+      stage.wall_friction.push_back(config.wall_friction.value_or(wall.friction));
+    }
+    for (const ControlConfig& control : config.controls) {
+      for (auto& planes : planes_named(walls, control.wall)) {
+        stage.controls.push_back({.name = control.wall,
+                                  .walls = std::move(planes),
+                                  .target = control.target,
+                                  .value = control.value,
+                                  .gain = control.gain,
+                                  .rate_limit = control.rate_limit.value_or(0)});
+      }
+    }
+    stages.push_back(std::move(stage));
+  }
+  return stages;
+}
+
+std::uint64_t most_steps(const StageConfig& stage, double time_step) {
+  return stage.steps.value_or(static_cast<std::uint64_t>(
+      std::ceil(stage.duration.value_or(0) / time_step * (1 - 1e-12))));
+}
+
+}  // namespace reckon

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/contact/hertz_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reckon/contact/contact_settings.hpp"
+
+namespace reckon {
+namespace {
+
+const Vec3 up{0, 0, 1};
+constexpr double radius = 0.3;    // R* [m]
+constexpr double overlap = 0.01;  // [m]
+
+/// The lens that a paraboloid of curvature R* cuts into a plane.
+PairContext lens(double friction = 0) {
+  return {.effective_mass = 0.25,
+          .friction = friction,
+          .total_area = 2 * std::numbers::pi * radius * overlap,
+          .total_volume = std::numbers::pi * radius * overlap * overlap,
+          .touching = 1,
+          .time_step = 1e-5};
+}
+/// One node that stands for the whole lens.
+Touch whole_lens(const PairContext& context) {
+  return {.phi = -context.total_volume / context.total_area,
+          .gradient_world = up,
+          .area = context.total_area};
+}
+
+TEST(HertzLaw, GivesHertzsForceEnergyAndStiffness) {
+  const HertzLaw law = hertz_law(70e9, 0.3, true, 0);
+  EXPECT_NEAR(law.normal_modulus, 70e9 / 0.91, 1);
+  const PairContext context = lens();
+  const NodeResponse r = law.respond(context, whole_lens(context), up, {}, {});
+  const double force = 4.0 / 3 * law.normal_modulus * std::sqrt(radius) * std::pow(overlap, 1.5);
+  EXPECT_NEAR(r.force.z / force, 1, 1e-12);
+  EXPECT_NEAR(r.elastic / (0.4 * force * overlap), 1, 1e-12);
+  EXPECT_NEAR(law.pair_stiffness(context) / (1.5 * force / overlap), 1, 1e-12);
+}
+
+TEST(HertzLaw, GivesMindlinsTangentialStiffness) {
+  // Two equal spheres: K_t / K_n = 2 (1 - nu) / (2 - nu) with K_n = 2 E* a (Johnson 1985, 7.44).
+  const double nu = 0.25;
+  const HertzLaw law = hertz_law(50e9, nu, false, 0);
+  const PairContext context = lens(1e9);
+  const Vec3 velocity{1e-3, 0, 0};
+  const NodeResponse r = law.respond(context, whole_lens(context), up, velocity, {});
+  const double found = -r.shear_force.x / (velocity.x * context.time_step);
+  EXPECT_NEAR(found / law.pair_stiffness(context), 2 * (1 - nu) / (2 - nu), 1e-9);
+}
+
+TEST(HertzLaw, FrictionIsCappedAndNoNodePulls) {
+  const HertzLaw law = hertz_law(50e9, 0.25, false, hertz_dashpot_factor(0.2));
+  const PairContext context = lens(0.4);
+  const Touch touch = whole_lens(context);
+  const NodeResponse sliding = law.respond(context, touch, up, {1e5, 0, 0}, {});
+  EXPECT_NEAR(norm(sliding.shear_force), 0.4 * sliding.force.z, 1e-6 * sliding.force.z);
+  EXPECT_EQ(law.respond(context, touch, up, {0, 0, 1e9}, {}).force, Vec3{});
+}
+
+/// A mass falls onto the lens of a growing overlap.
+TEST(HertzLaw, ReturnsTheSetRestitutionAtAnySpeed) {
+  for (const double restitution : {0.3, 0.6, 0.9}) {
+    for (const double speed : {0.01, 1.0}) {
+      const HertzLaw law = hertz_law(1e8, 0.2, true, hertz_dashpot_factor(restitution));
+      const double mass = 0.25;
+      const double dt = 2e-8 / std::pow(speed, 0.2);
+      double depth = 0;
+      double velocity = speed;  // inward
+      do {
+        depth = std::max(depth + dt * velocity, 0.0);
+        PairContext context = lens();
+        context.total_area = 2 * std::numbers::pi * radius * depth;
+        context.total_volume = std::numbers::pi * radius * depth * depth;
+        velocity -= dt / mass *
+                    law.respond(context, whole_lens(context), up, {0, 0, -velocity}, {}).force.z;
+      } while (depth > 0 && velocity > -2 * speed);
+      EXPECT_NEAR(-velocity / speed, restitution, 0.005) << restitution << " at " << speed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace reckon

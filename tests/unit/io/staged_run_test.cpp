@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "reckon/io/history.hpp"
+#include "unit/io/run_scene_fixture.hpp"
+
+namespace reckon {
+namespace {
+
+class StagedRunTest : public testing::RunSceneTest {
+ protected:
+  [[nodiscard]] std::vector<std::string> faults_of(const std::string& tables) const {
+    SceneReading reading = read_scene_text(staged(tables), root_);
+    if (reading.faults.empty()) (void)load_scene(reading);
+    std::vector<std::string> found;
+    for (const SceneFault& fault : reading.faults)
+      found.push_back(fault.key + ": " + fault.problem);
+    return found;
+  }
+  [[nodiscard]] static std::vector<std::string> column(const HistoryTable& table,
+                                                       const std::string& name) {
+    const auto place = std::find(table.header.begin(), table.header.end(), name);
+    std::vector<std::string> cells;
+    EXPECT_NE(place, table.header.end()) << name;
+    for (const auto& row : table.rows) {
+      cells.push_back(row[static_cast<std::size_t>(place - table.header.begin())]);
+    }
+    return cells;
+  }
+};
+
+TEST_F(StagedRunTest, StagesFollowEachOtherByGoalAndByTime) {
+  std::vector<std::string> notes;
+  RunHooks hooks;
+  hooks.note = [&](const std::string& note) { notes.push_back(note); };
+  const RunReport report = run(staged(), {.folder = root_ / "run"}, hooks);
+  EXPECT_EQ(report.end, RunEnd::complete);
+  const HistoryTable table = read_history(root_ / "run/history.csv");
+  const auto stage = column(table, "stage");
+  const auto step = column(table, "step");
+  EXPECT_TRUE(std::is_sorted(stage.begin(), stage.end()));
+  const auto steps_of = [&](const char* number) {
+    const auto [first, last] = std::equal_range(stage.begin(), stage.end(), number);
+    return std::stoul(step[static_cast<std::size_t>(last - stage.begin()) - 1]) -
+           (first == stage.begin()
+                ? 0
+                : std::stoul(step[static_cast<std::size_t>(first - stage.begin()) - 1]));
+  };
+  EXPECT_LT(steps_of("1"), 700U);  // by its goal
+  EXPECT_EQ(steps_of("1") % 20, 0U);
+  EXPECT_EQ(steps_of("2"), 333U);
+  EXPECT_LT(steps_of("3"), 1000U);
+  // Strains are counted anew by each stage; the third pulls.
+  EXPECT_LT(std::stod(column(table, "strain_z").back()), -0.004);
+  const auto is = [](const std::string& wanted) {
+    return [wanted](const std::string& note) { return note.find(wanted) != std::string::npos; };
+  };
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), is("stage press ended after")));
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), is("stage shear ended after 333 steps")));
+  EXPECT_NE(report.stages.find("shear: peak friction angle"), std::string::npos) << report.stages;
+}
+
+TEST_F(StagedRunTest, BreaksAnywhereLeaveTheSameFiles) {
+  const RunReport whole = run(staged(), {.folder = root_ / "whole"});
+  const std::uint64_t end = whole.progress.step;
+  const HistoryTable table = read_history(root_ / "whole/history.csv");
+  const auto stage = column(table, "stage");
+  const auto last_of_first = std::count(stage.begin(), stage.end(), "1") - 1;
+  const std::uint64_t boundary =
+      std::stoul(column(table, "step")[static_cast<std::size_t>(last_of_first)]);
+  for (const std::uint64_t step : {boundary - 7, boundary, boundary + 1, boundary + 340, end - 1}) {
+    const auto folder = root_ / ("broken_at_" + std::to_string(step));
+    EXPECT_EQ(run_until(step, staged(), {.folder = folder}).end, RunEnd::interrupted);
+    EXPECT_EQ(run(staged(), {.folder = folder, .resume = true}).end, RunEnd::complete);
+    expect_equal_folders(folder, root_ / "whole");
+  }
+  EXPECT_EQ(run(staged(), {.folder = root_ / "whole", .resume = true}).end, RunEnd::nothing_to_do);
+}
+
+TEST_F(StagedRunTest, AShorterRunGoesOn) {
+  (void)run(staged(), {.folder = root_ / "whole"});
+  EXPECT_EQ(run(staged(), {.folder = root_ / "short", .steps = 411}).progress.step, 411U);
+  EXPECT_EQ(run(staged(), {.folder = root_ / "short", .resume = true}).end, RunEnd::complete);
+  expect_equal_folders(root_ / "short", root_ / "whole");
+}
+
+TEST_F(StagedRunTest, FaultsOfStagesAreFound) {
+  using Faults = std::vector<std::string>;
+  const std::string stage = "[[stage]]\nname = 'a'\nsteps = 10\n";
+  EXPECT_EQ(faults_of(stage + "control = [{ wall = 'box.q', speed = 1 }]\n"),
+            (Faults{"stage[0].control[0].wall: no plane or pair of planes is named \"box.q\""}));
+  EXPECT_EQ(
+      faults_of(stage + "control = [{ wall = 'box.x', speed = 1 }, { wall = 'box.x+', speed = "
+                        "1 }]\n"),
+      (Faults{"stage[0].control[1].wall: \"box.x+\" is moved by another control of this stage "
+              "already"}));
+  EXPECT_EQ(faults_of(stage + "control = [{ wall = 'box.x', stress = 0 }]\n"),
+            (Faults{"stage[0].control[0]: needs a `rate_limit`"}));
+  EXPECT_EQ(faults_of(stage + "until = { stress_above = 1 }\n"),
+            (Faults{"stage[0].until: asks for the stress on walls that are driven, but none is"}));
+  EXPECT_EQ(faults_of(stage + "control = [{ wall = 'box.x', speed = 1, gain = 0.5 }]\n"),
+            (Faults{"stage[0].control[0].gain: `gain` belongs to `stress`"}));
+  EXPECT_EQ(faults_of(stage + "[time]\nsteps = 5\n"),
+            (Faults{"time.steps: with [[stage]] tables, only they say when to end: no `duration`, "
+                    "`steps` or `stop_at_unbalanced_ratio` here"}));
+  EXPECT_EQ(
+      faults_of(stage + "until = { strain = 0.1 }\n[[wall]]\nname = 'tube'\ncylinder = { point "
+                        "= [0, 0, 0], axis = [1, 1, 0], radius = 1 }\n"),
+      (Faults{"stage[0].until: needs walls that close off a space, which these do not"}));
+}
+
+}  // namespace
+}  // namespace reckon
