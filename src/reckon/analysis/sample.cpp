@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/analysis/sample.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -64,13 +65,12 @@ double add_pairs(const Simulation& simulation, Sums& sums, std::vector<std::int6
   return largest;
 }
 
+/// Pairs that two ranks share are told by the owner of the first grain.
 void add_normals(const Simulation& simulation, Sums& sums) {
-  const GrainContacts& contacts = simulation.grain_contacts();
-  const std::size_t owned = simulation.grains().size();
-  auto pair = contacts.pairs().begin();
-  for (const PairSprings& springs : contacts.springs()) {
-    while (pair->id_a != springs.id_a || pair->id_b != springs.id_b) ++pair;  // both sorted by ids
-    if (pair->slot_a >= owned) continue;
+  std::vector<GrainId> own_ids = simulation.grains().id;
+  std::sort(own_ids.begin(), own_ids.end());
+  for (const PairSprings& springs : simulation.grain_contacts().springs()) {
+    if (!std::binary_search(own_ids.begin(), own_ids.end(), springs.id_a)) continue;
     Vec3 normal;
     for (const NodeSpring& spring : springs.springs) {
       normal += spring.master_is_b ? -spring.normal : spring.normal;
