@@ -123,6 +123,8 @@ void add_grains_command(CLI::App& app) {
   add_grains_legacy(*grains);
   add_grains_info(*grains);
   add_grains_export(*grains);
+  add_grains_scan(*grains);
+  add_grains_from_scan(*grains);
 }
 
 }  // namespace reckon::app

@@ -42,6 +42,7 @@ enum class RandomPurpose : std::uint32_t {
   grain_form = 5,
   grain_surface = 6,
   other = 7,
+  scan_noise = 8,
 };
 
 /// An endless stream of numbers for one (seed, purpose, subject), for sequential use.

@@ -117,6 +117,18 @@ void describe(Visitor& v, LegacyPlacement& files) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, TablePlacement& table) {
+  v.file(
+      {.name = "file",
+       .required = true,
+       .meaning = "Text file, a line `shape, x, y, z, qw, qx, qy, qz` per grain: the shape's place "
+                  "in the library from 0, the centre of mass [m], the quaternion that turns the "
+                  "body frame into the world frame; `reckon grains scan` and `from-scan` write "
+                  "such tables."},
+      table.file);
+}
+
+template <class Visitor>
 void describe(Visitor& v, GrainsConfig& grains) {
   v.file({.name = "library",
           .required = true,
@@ -129,7 +141,7 @@ void describe(Visitor& v, GrainsConfig& grains) {
             .range = above(0),
             .meaning = "Length of a voxel: the unit of legacy morphology and position files."},
            grains.voxel);
-  v.one_of(Presence::exactly_one, {"fill", "place", "files"}, grains.placement.index(),
+  v.one_of(Presence::exactly_one, {"fill", "place", "files", "table"}, grains.placement.index(),
            [&](std::size_t which) {
              if (which == 0) {
                v.table(
@@ -141,10 +153,13 @@ void describe(Visitor& v, GrainsConfig& grains) {
                v.tables({.name = "place", .meaning = "Places one grain each."},
                         hold<std::vector<ExplicitGrain>>(grains.placement),
                         [&](ExplicitGrain& grain) { describe(v, grain); });
-             } else {
+             } else if (which == 2) {
                v.table({.name = "files",
                         .meaning = "Places grains from legacy LS-DEM files, shapes in turn."},
                        [&] { describe(v, hold<LegacyPlacement>(grains.placement)); });
+             } else {
+               v.table({.name = "table", .meaning = "Places grains as a table of poses says."},
+                       [&] { describe(v, hold<TablePlacement>(grains.placement)); });
              }
            });
 }

@@ -75,5 +75,6 @@ std::vector<std::array<double, width>> read_number_table(const std::filesystem::
 
 template std::vector<std::array<double, 3>> read_number_table<3>(const std::filesystem::path&);
 template std::vector<std::array<double, 4>> read_number_table<4>(const std::filesystem::path&);
+template std::vector<std::array<double, 8>> read_number_table<8>(const std::filesystem::path&);
 
 }  // namespace reckon

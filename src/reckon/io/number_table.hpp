@@ -25,5 +25,7 @@ extern template std::vector<std::array<double, 3>> read_number_table<3>(
     const std::filesystem::path& file);
 extern template std::vector<std::array<double, 4>> read_number_table<4>(
     const std::filesystem::path& file);
+extern template std::vector<std::array<double, 8>> read_number_table<8>(
+    const std::filesystem::path& file);
 
 }  // namespace reckon

@@ -8,17 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "reckon/avatar/shape_catalog.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/vtk_xml.hpp"
-#include "reckon/io/checkpoint.hpp"
 #include "reckon/io/fields.hpp"
 #include "reckon/io/scene_reader.hpp"
 
 namespace reckon {
-namespace {
 
-/// The shapes that a checkpoint was made with, from the files that its scene names.
 ShapeCatalog shapes_of(const Checkpoint& checkpoint, const std::string& place) {
   const SceneReading reading = read_scene_text(checkpoint.scene, "/");
   ShapeCatalog catalog;
@@ -37,8 +33,6 @@ ShapeCatalog shapes_of(const Checkpoint& checkpoint, const std::string& place) {
   }
   return catalog;
 }
-
-}  // namespace
 
 SurfaceFiles write_run_surfaces(const RunFolder& folder, std::optional<std::uint64_t> step) {
   const std::string place = folder.root().string();

@@ -6,10 +6,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
+#include "reckon/avatar/shape_catalog.hpp"
+#include "reckon/io/checkpoint.hpp"
 #include "reckon/io/run_folder.hpp"
 
 namespace reckon {
+
+/// The shapes that a checkpoint was made with, from the files that its scene names; `place` is for
+/// messages. Throws Error when they are gone or have changed.
+[[nodiscard]] ShapeCatalog shapes_of(const Checkpoint& checkpoint, const std::string& place);
 
 struct SurfaceFiles {
   std::size_t written{0};

@@ -16,6 +16,7 @@
 #include "reckon/core/error.hpp"
 #include "reckon/io/nearest_name.hpp"
 #include "reckon/io/number_table.hpp"
+#include "reckon/io/placement_table.hpp"
 #include "reckon/io/stage_check.hpp"
 #include "reckon/math/rotation.hpp"
 #include "reckon/simulation/placement.hpp"
@@ -127,6 +128,14 @@ class Loader {
                         placed.back());
         }
       }
+    } else if (const auto* table = std::get_if<TablePlacement>(&set.placement)) {
+      if (table->file.empty()) return;  // its fault is known
+      attempt(path + ".table.file", [&] {
+        placed = read_placement(table->file, shapes.size());
+        for (GrainState& grain : placed) {
+          grain.shape = ShapeId{static_cast<std::uint32_t>(first_shape) + grain.shape.get()};
+        }
+      });
     } else {
       placed = load_legacy(std::get<LegacyPlacement>(set.placement), set.voxel, path + ".files");
       for (std::size_t n = 0; n < placed.size(); ++n) placed[n].shape = shape_in_turn(n);

@@ -106,6 +106,10 @@ struct ExplicitGrain {
   Vec3 angular_velocity;                        ///< world frame [rad/s]
   bool fixed{false};                            ///< keeps its velocities whatever the forces
 };
+/// A table of poses, a line per grain (io/placement_table.hpp).
+struct TablePlacement {
+  std::string file;
+};
 /// Positions and rotations in the legacy text files; shapes are taken in turn.
 struct LegacyPlacement {
   std::string positions_file;
@@ -115,7 +119,8 @@ struct LegacyPlacement {
 struct GrainsConfig {
   std::string library;  ///< shape library file, or a folder of legacy morphology files
   double voxel{1};      ///< edge of a voxel, the unit of length of legacy files [m]
-  std::variant<FillPlacement, std::vector<ExplicitGrain>, LegacyPlacement> placement;
+  std::variant<FillPlacement, std::vector<ExplicitGrain>, LegacyPlacement, TablePlacement>
+      placement;
 };
 
 struct TimeConfig {

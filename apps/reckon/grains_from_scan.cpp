@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grains_parts.hpp"
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/io/human.hpp"
+#include "reckon/io/placement_table.hpp"
+#include "reckon/parallel/threads.hpp"
+#include "reckon/scan/from_scan.hpp"
+#include "reckon/scan/image_filters.hpp"
+#include "scan_report.hpp"
+
+namespace reckon::app {
+namespace {
+
+struct Options {
+  std::string voxel;
+  std::string folder;
+  std::string until{"avatars"};
+  double voxels_per_diameter{0};
+  std::string avatar_voxel;
+  std::int32_t slice{-1};
+  int threads{0};
+  std::string truth;
+  std::string threshold;
+  bool no_fill{false};
+  SegmentSettings segment;
+  AvatarSettings avatars;
+  std::uint32_t nodes{0};
+};
+
+const std::map<std::string, Denoising> denoisings{
+    {"none", Denoising::none}, {"median", Denoising::median}, {"curvature", Denoising::curvature}};
+const std::map<std::string, ScanStage> stages{{"read", ScanStage::read},
+                                              {"denoise", ScanStage::denoise},
+                                              {"threshold", ScanStage::threshold},
+                                              {"split", ScanStage::split},
+                                              {"avatars", ScanStage::choose}};
+
+/// The avatars' grid is as fine as the scan unless told otherwise.
+ShapeResolution resolution_of(const Options& options) {
+  ShapeResolution resolution = options.avatars.resolution;
+  if (options.nodes > 0) resolution.node_count = options.nodes;
+  if (options.voxels_per_diameter > 0) {
+    resolution.voxels_per_diameter = options.voxels_per_diameter;
+  } else {
+    resolution.voxel_size = options.avatar_voxel.empty()
+                                ? options.segment.volume.voxel
+                                : parse_length("--avatar-voxel", options.avatar_voxel);
+  }
+  return resolution;
+}
+
+void run(Options options) {
+  if (options.threads > 0) set_thread_count(options.threads);
+  require_ct_component();
+  SegmentSettings& segment = options.segment;
+  segment.volume.voxel = parse_length("--voxel", options.voxel);
+  segment.mask.fill = !options.no_fill;
+  AvatarSettings avatars = options.avatars;
+  avatars.resolution = resolution_of(options);
+  const std::filesystem::path folder{options.folder};
+  std::filesystem::create_directories(folder);
+  ScanReport report{folder};
+  const ScanStage last = stages.at(options.until);
+  const Segmentation scan =
+      segment_scan(segment, folder, last, [&](ScanStage stage) { report.begin(name_of(stage)); });
+  const std::int32_t slice =
+      options.slice >= 0 && options.slice < scan.raw.dims[2] ? options.slice : scan.raw.dims[2] / 2;
+  write_slices(scan, slice, folder);
+  report.segmented(scan, last);
+  if (last != ScanStage::choose) return report.finish();
+
+  report.begin("avatars");
+  const LabelVolume territories = grown(scan.labels, territory_layers);
+  const SegmentedScan pieces{&scan.raw, &scan.denoised, &scan.labels, &territories, scan.levels};
+  ScannedAssembly assembly;
+  {
+    CountDisplay display{scan.choice.kept.size(), "grains"};
+    assembly = make_avatars(pieces, scan.grains, scan.choice.kept, avatars,
+                            [&](std::size_t done) { display.show(done); });
+  }
+  save_library(folder / "library.h5", assembly.shapes);
+  write_placement(folder / "placement.csv", assembly.grains);
+  report.avatars(assembly, segment.volume.voxel);
+  if (!options.truth.empty()) report.compare(options.truth, assembly, scan.labels);
+  report.finish();
+}
+
+void add_stage_options(CLI::App& command, Options& options) {
+  const auto number = [&](const char* name, auto& value, const char* what) {
+    command.add_option(name, value, what)->capture_default_str();
+  };
+  SegmentSettings& s = options.segment;
+  command.add_option("--denoise", s.denoise.method, "none, median or curvature (the default)")
+      ->transform(CLI::CheckedTransformer(denoisings));
+  number("--iterations", s.denoise.iterations, "Of curvature diffusion");
+  number("--conductance", s.denoise.conductance, "Of curvature diffusion; less keeps more edges");
+  command.add_option("--threshold", s.mask.threshold,
+                     "Gray value between void and solid (default: found by Otsu's method)");
+  command.add_flag("--no-fill", options.no_fill, "Leave voids inside grains");
+  command
+      .add_option("--open", s.mask.open_radius, "Radius of a ball that opens the solid [voxels]")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 20));
+  command
+      .add_option(
+          "--rise", s.split.least_rise,
+          "Least depth of a grain's middle above its deepest neck [voxels]; more splits less")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 100.0));
+  command
+      .add_option(
+          "--neck", s.split.neck,
+          "Necks wider than this share of the smaller grain do not divide; less splits less")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  command.add_flag("--keep-border", s.keep_border, "Keep grains that the volume's border cuts");
+  number("--fewest-voxels", s.fewest_voxels, "Smaller grains are dropped");
+}
+
+void add_avatar_options(CLI::App& command, Options& options) {
+  AvatarSettings& s = options.avatars;
+  command.add_option("--smooth", s.smoothing, "Gaussian smoothing of the surface [voxels]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 5.0));
+  command
+      .add_option("--contact-gap", s.contact_gap,
+                  "Grains touch when the gray values leave a gap of at most this [voxels]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 2.0));
+  auto* per_diameter =
+      command
+          .add_option("--voxels-per-diameter", options.voxels_per_diameter,
+                      "Grid spacings of an avatar along its diameter (default: the scan's voxel)")
+          ->check(CLI::Range(10.0, 1000.0));
+  command.add_option("--avatar-voxel", options.avatar_voxel, "Grid spacing of the avatars")
+      ->excludes(per_diameter);
+  auto* spacing = command
+                      .add_option("--node-spacing", s.resolution.node_spacing,
+                                  "Root of a node's mean area, in diameters")
+                      ->capture_default_str()
+                      ->check(CLI::Range(0.005, 0.5));
+  command.add_option("--nodes", options.nodes, "Surface nodes per grain, whatever its size")
+      ->excludes(spacing)
+      ->check(CLI::Range(4, 10000000));
+}
+
+}  // namespace
+
+void add_grains_from_scan(CLI::App& grains) {
+  CLI::App* command = grains.add_subcommand(
+      "from-scan", "Grains and their places from an X-ray volume, gray or labelled");
+  command->footer(
+      "Examples:\n"
+      "  reckon grains from-scan scan.nrrd --voxel 3um --out sand --until split   # look first\n"
+      "  reckon grains from-scan scan.nrrd --voxel 3um --out sand\n"
+      "  reckon run sand/relax.toml");
+  auto options = std::make_shared<Options>();
+  SegmentSettings& s = options->segment;
+  command
+      ->add_option("volume", s.volume.file,
+                   "TIFF stack or folder, .nrrd, .mha, .raw with .raw.txt, .h5 or .npy")
+      ->required();
+  command->add_option("--voxel", options->voxel, "Edge of a voxel, e.g. 3um")->required();
+  command->add_option("--out", options->folder, "Folder to write to; made when missing")
+      ->required();
+  command->add_option("--dataset", s.volume.dataset, "Which dataset of an HDF5 file");
+  auto* labelled = command->add_flag("--labelled", s.labelled, "The volume holds labels already");
+  command->add_option("--gray", s.gray, "With --labelled: the gray volume of the same scan")
+      ->needs(labelled);
+  command
+      ->add_option("--until", options->until,
+                   "Stop after read, denoise, threshold or split, and look at the pictures")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"read", "denoise", "threshold", "split", "avatars"}));
+  command->add_option("--slice", options->slice, "Layer of the pictures (default: the middle)");
+  add_stage_options(*command, *options);
+  add_avatar_options(*command, *options);
+  command->add_option("--truth", options->truth,
+                      "Folder that `reckon grains scan` wrote: compare with it");
+  command->add_option("--threads", options->threads, "Threads (default: all)")
+      ->check(CLI::Range(1, 4096));
+  command->callback([=] { run(*options); });
+}
+
+}  // namespace reckon::app

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "grains_parts.hpp"
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/core/file.hpp"
+#include "reckon/io/human.hpp"
+#include "reckon/io/placement_table.hpp"
+#include "reckon/io/run_surfaces.hpp"
+#include "reckon/io/scene_loader.hpp"
+#include "reckon/parallel/threads.hpp"
+#include "reckon/scan/near_pairs.hpp"
+#include "reckon/scan/scan_avatars.hpp"
+#include "reckon/scan/scanner.hpp"
+#include "reckon/scan/volume_file.hpp"
+
+namespace reckon::app {
+namespace {
+
+struct Options {
+  std::string source;
+  std::optional<std::uint64_t> step;
+  std::string voxel;
+  std::string folder;
+  std::string format{"h5"};
+  std::string type{"uint16"};
+  bool no_partial_volume{false};
+  int threads{0};
+  ScannerSettings scanner;
+};
+
+/// Grains in place and a way to their shapes.
+struct Assembly {
+  std::vector<GrainState> grains;
+  ReadShape read_shape;
+};
+
+Assembly open_run(const Options& options) {
+  const RunFolder folder{options.source};
+  const auto steps = folder.checkpoint_steps();
+  const std::uint64_t step = options.step.value_or(steps.empty() ? 0 : steps.back());
+  if (std::find(steps.begin(), steps.end(), step) == steps.end()) {
+    throw Error{{.place = options.source,
+                 .problem = "there is no checkpoint of this step",
+                 .reason = steps.empty() ? "the run has none" : fmt::format("step {}", step),
+                 .fix = "Its folder checkpoints lists them."}};
+  }
+  const Checkpoint checkpoint = read_checkpoint(folder.checkpoint(step));
+  const auto catalog = std::make_shared<const ShapeCatalog>(shapes_of(checkpoint, options.source));
+  return {checkpoint.state.grains, [catalog](ShapeId shape) { return catalog->read(shape); }};
+}
+
+Assembly open_scene(const Options& options) {
+  SceneReading reading = read_scene_file(options.source);
+  LoadedScene scene = load_scene(reading);
+  if (!reading.faults.empty()) {
+    throw Error{{.place = options.source,
+                 .problem = describe(reading.faults.front(), options.source),
+                 .reason = {},
+                 .fix = "`reckon check` lists every fault."}};
+  }
+  return {std::move(scene.grains), std::move(scene.read_shape)};
+}
+
+/// The shapes that occur, under new ids in the order of the old ones.
+ShapeLibrary collect_shapes(SimulatedScan& scan, const ReadShape& read_shape) {
+  std::map<ShapeId, ShapeId> place;
+  for (const GrainState& grain : scan.grains) place[grain.shape] = {};
+  ShapeLibrary library;
+  std::set<std::string> names;
+  for (auto& [old, now] : place) {
+    now = ShapeId{static_cast<std::uint32_t>(library.size())};
+    library.push_back(read_shape(old));
+    std::string& name = library.back().name;
+    if (!names.insert(name).second) {
+      name += fmt::format("_{}", old.get());
+      names.insert(name);
+    }
+  }
+  for (GrainState& grain : scan.grains) grain.shape = place[grain.shape];
+  return library;
+}
+
+void write_contacts(const std::filesystem::path& file, const std::vector<NearPair>& pairs) {
+  std::string text = "a,b,gap_m,x_m,y_m,z_m,nx,ny,nz\n";
+  for (const NearPair& pair : pairs) {
+    const Vec3& p = pair.point_world;
+    const Vec3& n = pair.normal_world;
+    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", pair.a, pair.b, pair.gap, p.x, p.y, p.z,
+                        n.x, n.y, n.z);
+  }
+  write_file(file, text);
+}
+
+void scan(const Options& options) {
+  if (options.threads > 0) set_thread_count(options.threads);
+  const auto type = voxel_type_named(options.type);
+  ScannerSettings settings = options.scanner;
+  settings.voxel = parse_length("--voxel", options.voxel);
+  settings.partial_volume = !options.no_partial_volume;
+  settings.validate();
+  const Assembly assembly =
+      std::filesystem::is_directory(options.source) ? open_run(options) : open_scene(options);
+  SimulatedScan result = scan_assembly(assembly.grains, assembly.read_shape, settings);
+  const ShapeLibrary library = collect_shapes(result, assembly.read_shape);
+  const std::filesystem::path folder{options.folder};
+  std::filesystem::create_directories(folder);
+  write_volume(folder / ("volume." + options.format), result.gray, *type);
+  write_volume(folder / "labels.h5", to_gray(result.labels), VoxelType::uint32);
+  save_library(folder / "library.h5", library);
+  write_placement(folder / "placement.csv", result.grains);
+  write_contacts(folder / "contacts.csv", near_pairs(shape_views(library), result.grains, 0));
+  const auto& dims = result.gray.dims;
+  fmt::print("{}: {} grains in {} x {} x {} voxels\n", options.folder,
+             human_count(result.grains.size()), dims[0], dims[1], dims[2]);
+}
+
+}  // namespace
+
+void add_grains_scan(CLI::App& grains) {
+  CLI::App* command = grains.add_subcommand(
+      "scan",
+      "Scan a run or a scene as an X-ray tomograph would, with the truth beside the volume");
+  command->footer("Example:\n  reckon grains scan settle.run --voxel 30um --out scan");
+  auto options = std::make_shared<Options>();
+  ScannerSettings& s = options->scanner;
+  command->add_option("source", options->source, "Folder of a run, or a scene's .toml")
+      ->required()
+      ->check(CLI::ExistingPath);
+  command->add_option("--step", options->step, "Checkpoint of the run (default: the last)");
+  command->add_option("--voxel", options->voxel, "Edge of a voxel, e.g. 30um")->required();
+  command->add_option("--out", options->folder, "Folder to write to; made when missing")
+      ->required();
+  command->add_option("--format", options->format, "Ending of the volume's file")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"h5", "npy", "raw", "mha", "nrrd", "tif"}));
+  command->add_option("--type", options->type, "Numbers of the volume")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"uint8", "uint16", "float32"}));
+  const auto number = [&](const char* name, auto& value, const char* what) {
+    command->add_option(name, value, what)->capture_default_str();
+  };
+  number("--blur", s.blur, "Standard deviation of the point spread function [voxels]");
+  number("--noise", s.noise, "Standard deviation of the noise / (solid - void)");
+  number("--beam-hardening", s.beam_hardening, "Share of its gray that solid on the axis loses");
+  command->add_flag("--no-partial-volume", options->no_partial_volume,
+                    "A voxel's centre decides, not its solid share");
+  number("--margin", s.margin, "Void around the grains [voxels]");
+  number("--void-gray", s.void_gray, "Gray value of void");
+  number("--solid-gray", s.solid_gray, "Gray value of solid");
+  number("--seed", s.seed, "Of the noise");
+  command->add_option("--threads", options->threads, "Threads (default: all)")
+      ->check(CLI::Range(1, 4096));
+  command->callback([=] { scan(*options); });
+}
+
+}  // namespace reckon::app

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scan_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/core/file.hpp"
+#include "reckon/io/human.hpp"
+#include "reckon/io/placement_table.hpp"
+#include "reckon/scan/scan_truth.hpp"
+#include "reckon/scan/volume_file.hpp"
+
+namespace reckon::app {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+void write_quality(const std::filesystem::path& file, const ScannedAssembly& assembly) {
+  std::string text =
+      "grain,voxels,volume_m3,volume_over_labels,volume_over_gray,level,gradient_error,"
+      "surface_distance_m,area_kept,neighbours,contacts,deepest_overlap_m\n";
+  for (std::size_t n = 0; n < assembly.quality.size(); ++n) {
+    const AvatarQuality& q = assembly.quality[n];
+    text += fmt::format("{},{},{},{:.6f},{:.6f},{:.4f},{:.6f},{:.6g},{:.5f},{},{},{:.6g}\n",
+                        assembly.shapes[n].name, q.voxels, q.volume, q.volume / q.label_volume,
+                        q.volume / q.gray_volume, q.level, q.gradient_error, q.surface_distance,
+                        q.area_kept, q.neighbours, q.contacts, q.deepest_overlap);
+  }
+  write_file(file, text);
+}
+
+void write_contacts(const std::filesystem::path& file, const ScannedAssembly& assembly) {
+  std::string text = "a,b,touching,gray_gap_m,gap_m,x_m,y_m,z_m,nx,ny,nz\n";
+  for (const ScannedContact& contact : assembly.contacts) {
+    const NearPair& pair = contact.pair;
+    const Vec3& p = pair.point_world;
+    const Vec3& n = pair.normal_world;
+    text += fmt::format("{},{},{},{:.6g},{:.6g},{},{},{},{:.6g},{:.6g},{:.6g}\n", pair.a, pair.b,
+                        contact.touching ? 1 : 0, contact.gray_gap, pair.gap, p.x, p.y, p.z, n.x,
+                        n.y, n.z);
+  }
+  write_file(file, text);
+}
+
+/// A scene in which overlaps push grains apart and damping stops them at once. Stiffness is such
+/// that a thousandth of a diameter bears what a grain of this size weighs many times over; the
+/// damping is near critical for one contact, whose area is about a fiftieth of d^2.
+void write_relaxation(const std::filesystem::path& file, double diameter) {
+  const double density = 2650;
+  const double stiffness = 4e6 / diameter;
+  const double damping =
+      2 * std::sqrt(0.02 * stiffness / (density * std::numbers::pi / 6 * diameter));
+  write_file(file,
+             fmt::format(R"(# Pushes the scanned grains out of each other, as little as possible.
+#   reckon run relax.toml
+#   reckon grains moved placement.csv relax.run
+title = "Scanned grains, overlaps relaxed"
+
+[material]
+density = {}
+friction = 0
+
+[contact]
+law = "area"
+normal_stiffness = "{:.4g} N/m^3"
+
+[body]
+gravity = [0, 0, 0]
+damping = {:.4g}
+
+[[grains]]
+library = "library.h5"
+table = {{ file = "placement.csv" }}
+
+[time]
+steps = 4000
+
+[output]
+history_interval = 100
+)",
+                         density, stiffness, damping));
+}
+
+}  // namespace
+
+ScanReport::ScanReport(std::filesystem::path folder) : folder_{std::move(folder)} {
+  json_.begin_object();
+}
+
+void ScanReport::end_stage() {
+  if (stage_.empty()) return;
+  const auto now = std::chrono::steady_clock::now();
+  seconds_.emplace_back(stage_, std::chrono::duration<double>(now - start_).count());
+  stage_.clear();
+}
+
+void ScanReport::begin(const std::string& stage) {
+  end_stage();
+  stage_ = stage;
+  start_ = std::chrono::steady_clock::now();
+}
+
+void ScanReport::segmented(const Segmentation& scan, ScanStage last) {
+  end_stage();
+  const auto& dims = scan.raw.dims;
+  fmt::print("volume     {} x {} x {} voxels\n", dims[0], dims[1], dims[2]);
+  json_.begin_array("voxels");
+  for (const std::int32_t dim : dims) json_.value({}, dim);
+  json_.end();
+  for (const ScanStage stage : scan.resumed) {
+    fmt::print("resumed    {}: input and settings are those of its file\n", name_of(stage));
+  }
+  if (last >= ScanStage::threshold) {
+    const auto solid = std::count_if(scan.mask.values.begin(), scan.mask.values.end(),
+                                     [](auto m) { return m != 0; });
+    const double share = static_cast<double>(solid) / static_cast<double>(scan.mask.values.size());
+    fmt::print("gray       void {:.6g}, solid {:.6g}, threshold {:.6g}\n", scan.levels.void_gray,
+               scan.levels.solid_gray, scan.levels.threshold);
+    fmt::print("solid      {:.2f} % of the volume\n", 100 * share);
+    json_.value("void_gray", scan.levels.void_gray);
+    json_.value("solid_gray", scan.levels.solid_gray);
+    json_.value("threshold", scan.levels.threshold);
+    json_.value("solid_share", share);
+  }
+  if (last >= ScanStage::split) {
+    json_.value("pieces_joined", scan.joined);
+    fmt::print("split      {} pieces were joined again at wide necks\n", human_count(scan.joined));
+  }
+  if (last >= ScanStage::choose) {
+    fmt::print("grains     {} found; {} cut off by the border and {} tiny ones dropped, {} kept\n",
+               human_count(scan.grains.size()), human_count(scan.choice.on_border),
+               human_count(scan.choice.tiny), human_count(scan.choice.kept.size()));
+    json_.value("grains_found", scan.grains.size());
+    json_.value("on_border", scan.choice.on_border);
+    json_.value("tiny", scan.choice.tiny);
+    json_.value("kept", scan.choice.kept.size());
+  }
+}
+
+void ScanReport::avatars(const ScannedAssembly& assembly, double voxel) {
+  end_stage();
+  write_quality(folder_ / "quality.csv", assembly);
+  write_contacts(folder_ / "contacts.csv", assembly);
+  double diameter = 0;
+  double overlap = 0;
+  double gradient = 0;
+  double drift = 0;
+  for (std::size_t n = 0; n < assembly.quality.size(); ++n) {
+    const auto count = static_cast<double>(assembly.quality.size());
+    const AvatarQuality& q = assembly.quality[n];
+    diameter += assembly.shapes[n].descriptors.equivalent_diameter / count;
+    overlap = std::max(overlap, q.deepest_overlap);
+    gradient += q.gradient_error / count;
+    drift += std::abs(q.volume / q.gray_volume - 1) / count;
+  }
+  std::size_t touching = 0;
+  std::size_t overlapping = 0;
+  for (const ScannedContact& contact : assembly.contacts) {
+    touching += contact.touching ? 1 : 0;
+    overlapping += contact.pair.gap < 0 ? 1 : 0;
+  }
+  write_relaxation(folder_ / "relax.toml", diameter);
+  const double seconds = seconds_.back().second;
+  fmt::print("avatars    {} in {} ({:.3g} a second), mean diameter {:.4g} voxels\n",
+             human_count(assembly.shapes.size()), human_duration(seconds),
+             static_cast<double>(assembly.shapes.size()) / seconds, diameter / voxel);
+  for (const std::string& reason : assembly.refused) fmt::print("left out   {}\n", reason);
+  fmt::print("quality    volume {:.3f} % off the gray values', | |grad phi| - 1 | {:.4f}\n",
+             100 * drift, gradient);
+  fmt::print("contacts   {} touch; {} pairs overlap, by {:.3f} voxels at most\n",
+             human_count(touching), human_count(overlapping), overlap / voxel);
+  json_.value("avatars", assembly.shapes.size());
+  json_.value("refused", assembly.refused.size());
+  json_.value("mean_diameter_voxels", diameter / voxel);
+  json_.value("volume_drift", drift);
+  json_.value("gradient_error", gradient);
+  json_.value("contacts", touching);
+  json_.value("overlapping_pairs", overlapping);
+  json_.value("deepest_overlap_voxels", overlap / voxel);
+}
+
+void ScanReport::compare(const std::string& truth_folder, const ScannedAssembly& assembly,
+                         const LabelVolume& labels) {
+  const std::filesystem::path folder{truth_folder};
+  ScanTruth truth;
+  truth.shapes = load_library(folder / "library.h5");
+  truth.grains = read_placement(folder / "placement.csv", truth.shapes.size());
+  truth.labels = to_labels(read_volume({folder / "labels.h5", labels.voxel, {}}).gray,
+                           (folder / "labels.h5").string());
+  const TruthFigures f = compare_with_truth(truth, assembly, labels);
+  fmt::print("truth      {} of {} grains found once ({:.2f} %), {} split, {} joined\n",
+             f.found_once, f.grains, 100.0 * f.found_once / std::max(1U, f.grains), f.split,
+             f.joined);
+  fmt::print("  volume   {:+.3f} % on average, {:.3f} % off; inertia {:.2f} % off\n",
+             100 * f.volume_error, 100 * f.volume_error_absolute, 100 * f.inertia_error);
+  fmt::print("  pose     centre {:.3f} voxels, long axis {:.2f} degrees off\n", f.center_error,
+             degrees * f.axis_error);
+  fmt::print("  surface  {:.3f} voxels, normals {:.2f} degrees off\n", f.surface_error,
+             degrees * f.normal_error);
+  fmt::print("  contacts recall {:.2f} %, precision {:.2f} % of {} true ones\n", 100 * f.recall(),
+             100 * f.precision(), f.true_contacts);
+  json_.begin_object("truth");
+  json_.value("grains", f.grains);
+  json_.value("found_once", f.found_once);
+  json_.value("split", f.split);
+  json_.value("joined", f.joined);
+  json_.value("voxels_per_diameter", f.voxels_per_diameter);
+  json_.value("volume_error", f.volume_error);
+  json_.value("volume_error_absolute", f.volume_error_absolute);
+  json_.value("inertia_error", f.inertia_error);
+  json_.value("center_error_voxels", f.center_error);
+  json_.value("axis_error_degrees", degrees * f.axis_error);
+  json_.value("surface_error_voxels", f.surface_error);
+  json_.value("normal_error_degrees", degrees * f.normal_error);
+  json_.value("true_contacts", f.true_contacts);
+  json_.value("found_contacts", f.found_contacts);
+  json_.value("recall", f.recall());
+  json_.value("precision", f.precision());
+  json_.end();
+}
+
+void ScanReport::finish() {
+  end_stage();
+  json_.begin_object("seconds");
+  for (const auto& [stage, seconds] : seconds_) json_.value(stage, seconds);
+  json_.end();
+  json_.end();
+  write_file(folder_ / "report.json", json_.text());
+}
+
+}  // namespace reckon::app

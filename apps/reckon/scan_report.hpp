@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include "reckon/io/json_writer.hpp"
+#include "reckon/scan/from_scan.hpp"
+#include "reckon/scan/scan_avatars.hpp"
+
+namespace reckon::app {
+
+/// What `reckon grains from-scan` tells: lines on the terminal, tables and a JSON file in its
+/// folder.
+class ScanReport {
+ public:
+  explicit ScanReport(std::filesystem::path folder);
+
+  void begin(const std::string& stage);
+  void segmented(const Segmentation& scan, ScanStage last);
+  /// Also writes quality.csv, contacts.csv and the scene that relaxes the assembly.
+  void avatars(const ScannedAssembly& assembly, double voxel);
+  /// Compares with the folder that `reckon grains scan` wrote.
+  void compare(const std::string& truth, const ScannedAssembly& assembly,
+               const LabelVolume& labels);
+  /// Writes report.json.
+  void finish();
+
+ private:
+  void end_stage();
+
+  std::filesystem::path folder_;
+  JsonWriter json_;
+  std::string stage_;
+  std::chrono::steady_clock::time_point start_;
+  std::vector<std::pair<std::string, double>> seconds_;
+};
+
+}  // namespace reckon::app

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "reckon/scan/labels.hpp"
+#include "reckon/scan/scan_avatars.hpp"
+#include "reckon/scan/segmentation.hpp"
+#include "reckon/scan/volume_file.hpp"
+
+namespace reckon {
+
+/// The stages from a volume to labelled grains, in order.
+enum class ScanStage : std::uint8_t { read, denoise, threshold, split, choose };
+
+struct SegmentSettings {
+  VolumeRequest volume;
+  bool labelled{false};        ///< the volume holds labels already
+  std::filesystem::path gray;  ///< with `labelled`: the gray volume of these labels, if there is
+  DenoiseSettings denoise;
+  MaskSettings mask;
+  SplitSettings split;
+  bool keep_border{false};
+  std::uint64_t fewest_voxels{500};  ///< of a grain: a ball of ten voxels diameter has 524
+};
+
+/// Everything that the avatars are made of, and what became of the rest.
+struct Segmentation {
+  GrayVolume raw;
+  GrayVolume denoised;
+  MaskVolume mask;
+  LabelVolume labels;
+  GrayLevels levels;
+  std::uint32_t joined{0};  ///< pieces that were put together again
+  std::vector<LabelledGrain> grains;
+  GrainChoice choice;
+  std::vector<ScanStage> resumed;  ///< stages whose results were found, not computed
+};
+
+/// Runs the stages up to `last`. Each leaves its volume in `folder`, a sealed file that also says
+/// what it was made from and with which settings, and is read instead of computed when both are
+/// still the same. `on_stage` is called before each. Throws Error; files appear only when complete.
+[[nodiscard]] Segmentation segment_scan(const SegmentSettings& settings,
+                                        const std::filesystem::path& folder, ScanStage last,
+                                        const std::function<void(ScanStage)>& on_stage);
+
+[[nodiscard]] const char* name_of(ScanStage stage);
+
+/// Pictures of slice `k` across z: the gray values; with the surface of the mask; with the grains
+/// in colours. What is not there yet gets no picture.
+void write_slices(const Segmentation& scan, std::int32_t k, const std::filesystem::path& folder);
+
+}  // namespace reckon

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/scan/grain_surface.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "reckon/avatar/mesh_mass.hpp"
+#include "reckon/avatar/surface_extraction.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/scan/scanner.hpp"
+#include "reckon/shape/level_set.hpp"
+
+namespace reckon {
+namespace {
+
+constexpr std::int32_t padding = territory_layers + 2;  // of the piece that a grain is cut out of
+constexpr double border_smoothing = 1;                  // of indicators [voxels]
+constexpr double lowest_level = 0.25;
+constexpr double highest_level = 0.75;
+constexpr int level_rounds = 8;
+constexpr double volume_tolerance = 1e-4;
+constexpr int inner_layers = 2;  // of a grain, left out of its solid level
+constexpr std::uint64_t fewest_inner = 30;
+
+/// The piece of the volume around one grain.
+struct Piece {
+  std::array<std::int32_t, 3> low{};  // in the volume; may lie outside
+  GrayVolume share;                   // solid shares of the denoised volume
+  GrayVolume border;                  // neighbours minus grain, smoothed
+  double gray_volume{0};              // [voxels]
+  double solid_gray{0};
+};
+
+/// The mean of the raw gray over the grain's voxels that lie `inner_layers` inside it.
+double own_solid_gray(const SegmentedScan& scan, std::uint32_t label, const LabelledGrain& grain) {
+  const LabelVolume& labels = *scan.labels;
+  double sum = 0;
+  std::uint64_t count = 0;
+  const auto inside = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+    for (const int step : {-inner_layers, inner_layers}) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::array<std::int32_t, 3> p{i, j, k};
+        p[axis] += step;
+        if (!labels.holds(p[0], p[1], p[2])) return false;
+        if (labels.values[labels.index(p[0], p[1], p[2])] != label) return false;
+      }
+    }
+    return labels.values[labels.index(i, j, k)] == label;
+  };
+  for (std::int32_t k = grain.low[2]; k <= grain.high[2]; ++k) {
+    for (std::int32_t j = grain.low[1]; j <= grain.high[1]; ++j) {
+      for (std::int32_t i = grain.low[0]; i <= grain.high[0]; ++i) {
+        if (!inside(i, j, k)) continue;
+        sum += scan.raw->values[labels.index(i, j, k)];
+        ++count;
+      }
+    }
+  }
+  return count < fewest_inner ? scan.levels.solid_gray : sum / static_cast<double>(count);
+}
+
+Piece cut_out(const SegmentedScan& scan, std::uint32_t label, const LabelledGrain& grain) {
+  Piece piece;
+  std::array<std::int32_t, 3> dims{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    piece.low[axis] = grain.low[axis] - padding;
+    dims[axis] = grain.high[axis] - grain.low[axis] + 1 + 2 * padding;
+  }
+  const double voxel = scan.labels->voxel;
+  piece.share = GrayVolume{dims, voxel};
+  piece.border = GrayVolume{dims, voxel};
+  piece.solid_gray = own_solid_gray(scan, label, grain);
+  GrayLevels levels = scan.levels;
+  levels.solid_gray = piece.solid_gray;
+  std::size_t at = 0;
+  for (std::int32_t k = 0; k < dims[2]; ++k) {
+    for (std::int32_t j = 0; j < dims[1]; ++j) {
+      for (std::int32_t i = 0; i < dims[0]; ++i, ++at) {
+        const std::int32_t x = piece.low[0] + i;
+        const std::int32_t y = piece.low[1] + j;
+        const std::int32_t z = piece.low[2] + k;
+        if (!scan.labels->holds(x, y, z)) continue;
+        const std::size_t v = scan.labels->index(x, y, z);
+        const std::uint32_t owner = scan.territories->values[v];
+        piece.share.values[at] = static_cast<float>(levels.share(scan.denoised->values[v]));
+        piece.border.values[at] = owner == label ? -1.0F : owner != 0 ? 1.0F : 0.0F;
+        if (owner == label) piece.gray_volume += levels.share(scan.raw->values[v]);
+      }
+    }
+  }
+  return piece;
+}
+
+/// The level set of the grain at a level of solid share.
+LevelSet level_set_of(const Piece& piece, double level) {
+  LevelSet grid;
+  grid.dims = piece.share.dims;
+  grid.spacing = piece.share.voxel;
+  for (int axis = 0; axis < 3; ++axis) {
+    grid.origin_body[axis] = (piece.low[static_cast<std::size_t>(axis)] + 0.5) * piece.share.voxel;
+  }
+  grid.values.resize(piece.share.values.size());
+  std::size_t at = 0;
+  for (std::int32_t k = 0; k < grid.dims[2]; ++k) {
+    for (std::int32_t j = 0; j < grid.dims[1]; ++j) {
+      for (std::int32_t i = 0; i < grid.dims[0]; ++i, ++at) {
+        const bool outermost = i == 0 || j == 0 || k == 0 || i + 1 == grid.dims[0] ||
+                               j + 1 == grid.dims[1] || k + 1 == grid.dims[2];
+        const double value =
+            std::max(level - piece.share.values[at], 0.5 * piece.border.values[at]);
+        grid.values[at] = static_cast<float>(outermost ? std::max(value, 0.25) : value);
+      }
+    }
+  }
+  return grid;
+}
+
+}  // namespace
+
+TriangleMesh largest_component(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) {
+      parent[v] = parent[parent[v]];
+      v = parent[v];
+    }
+    return v;
+  };
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t corner : {t[1], t[2]}) {
+      const std::uint32_t a = root(t[0]);
+      const std::uint32_t b = root(corner);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<double> volume(mesh.vertices.size(), 0);
+  if (mesh.triangles.empty()) return {};
+  const Vec3 origin = mesh.vertices[mesh.triangles.front()[0]];
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]] - origin;
+    volume[root(t[0])] +=
+        dot(cross(a, mesh.vertices[t[1]] - origin), mesh.vertices[t[2]] - origin) / 6;
+  }
+  const auto best =
+      static_cast<std::uint32_t>(std::max_element(volume.begin(), volume.end()) - volume.begin());
+  TriangleMesh part;
+  std::vector<std::uint32_t> place(mesh.vertices.size(), 0);
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (root(v) != best) continue;
+    place[v] = static_cast<std::uint32_t>(part.vertices.size());
+    part.vertices.push_back(mesh.vertices[v]);
+  }
+  for (const auto& t : mesh.triangles) {
+    if (root(t[0]) == best) part.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
+  }
+  return part;
+}
+
+GrainSurface extract_grain(const SegmentedScan& scan, std::uint32_t label,
+                           const LabelledGrain& grain, double smoothing) {
+  Piece piece = cut_out(scan, label, grain);
+  blur_volume(piece.border, border_smoothing);
+  blur_volume(piece.share, smoothing);
+  const double voxel_volume = scan.labels->voxel * scan.labels->voxel * scan.labels->voxel;
+  GrainSurface surface;
+  surface.label_volume = static_cast<double>(grain.voxels) * voxel_volume;
+  surface.gray_volume = piece.gray_volume * voxel_volume;
+  surface.solid_gray = piece.solid_gray;
+
+  const auto draw = [&](double level) {
+    surface.level = level;
+    surface.mesh_world = largest_component(extract_surface(level_set_of(piece, level)));
+    return solid_properties(surface.mesh_world).volume;
+  };
+  // Bisection in the level: the volume falls with it.
+  double low = lowest_level;
+  double high = highest_level;
+  double level = 0.5;
+  for (int round = 0; round < level_rounds; ++round) {
+    const double volume = draw(level);
+    if (!(volume > 0)) break;
+    const double error = volume / surface.gray_volume - 1;
+    if (std::abs(error) < volume_tolerance) break;
+    (error > 0 ? low : high) = level;
+    level = 0.5 * (low + high);
+  }
+  if (surface.mesh_world.triangles.empty()) {
+    throw Error{{.place = fmt::format("grain {}", label),
+                 .problem = "it has no surface at this gray level",
+                 .reason = fmt::format("{} voxels", grain.voxels),
+                 .fix = "It is too small or too faint; drop it by --fewest-voxels."}};
+  }
+  return surface;
+}
+
+}  // namespace reckon

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/scan/scan_avatars.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "reckon/avatar/mesh_mass.hpp"
+#include "reckon/avatar/surface_extraction.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/parallel/threads.hpp"
+
+namespace reckon {
+namespace {
+
+struct Avatar {
+  Shape shape;
+  GrainState grain;
+  AvatarQuality quality;
+  double solid_gray{0};
+};
+
+AvatarQuality judge(const Shape& shape, const GrainSurface& surface, const TriangleMesh& body_mesh,
+                    std::uint32_t label, const LabelledGrain& grain) {
+  AvatarQuality quality;
+  quality.label = label;
+  quality.voxels = grain.voxels;
+  quality.label_volume = surface.label_volume;
+  quality.gray_volume = surface.gray_volume;
+  quality.volume = shape.mass.volume;
+  quality.level = surface.level;
+  const LevelSetView grid{shape.level_set};
+  for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
+    const double slope = norm(grid.sample(shape.nodes.position(n)).gradient_body);
+    quality.gradient_error += std::abs(slope - 1) / static_cast<double>(shape.nodes.size());
+  }
+  double squares = 0;
+  for (const Vec3& vertex : body_mesh.vertices) {
+    const double phi = grid.sample(vertex).phi;
+    squares += phi * phi;
+  }
+  quality.surface_distance = std::sqrt(squares / static_cast<double>(body_mesh.vertices.size()));
+  quality.area_kept = solid_properties(extract_surface(grid)).surface_area /
+                      solid_properties(body_mesh).surface_area;
+  return quality;
+}
+
+Avatar make_avatar(const SegmentedScan& scan, std::uint32_t label, const LabelledGrain& grain,
+                   const AvatarSettings& settings) {
+  const GrainSurface surface = extract_grain(scan, label, grain, settings.smoothing);
+  const PrincipalFrame frame = principal_frame(solid_properties(surface.mesh_world));
+  const TriangleMesh body_mesh = to_frame(surface.mesh_world, frame);
+  Avatar avatar;
+  avatar.shape = build_shape(body_mesh, settings.resolution, fmt::format("grain_{}", label));
+  avatar.quality = judge(avatar.shape, surface, body_mesh, label, grain);
+  avatar.grain.position = frame.origin_mesh;
+  avatar.grain.orientation = quaternion_from_matrix(transpose(frame.rotation));
+  avatar.solid_gray = surface.solid_gray;
+  return avatar;
+}
+
+void find_contacts(const SegmentedScan& scan, const std::vector<double>& solid_gray,
+                   double contact_gap, ScannedAssembly& assembly) {
+  const double voxel = scan.labels->voxel;
+  const auto views = shape_views(assembly.shapes);
+  const auto pairs = near_pairs(views, assembly.grains, voxel);
+  assembly.contacts.resize(pairs.size());
+  parallel_for(pairs.size(), 16, [&](std::size_t p) {
+    GrayLevels levels = scan.levels;
+    levels.solid_gray = 0.5 * (solid_gray[pairs[p].a] + solid_gray[pairs[p].b]);
+    const double gap = gray_gap(*scan.denoised, levels, pairs[p]);
+    assembly.contacts[p] = {pairs[p], gap, gap <= contact_gap * voxel};
+  });
+  for (const ScannedContact& contact : assembly.contacts) {
+    for (const std::uint32_t n : {contact.pair.a, contact.pair.b}) {
+      AvatarQuality& quality = assembly.quality[n];
+      ++quality.neighbours;
+      quality.contacts += contact.touching ? 1 : 0;
+      quality.deepest_overlap = std::max(quality.deepest_overlap, -contact.pair.gap);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<ShapeView> shape_views(const ShapeLibrary& shapes) {
+  return {shapes.begin(), shapes.end()};
+}
+
+ScannedAssembly make_avatars(const SegmentedScan& scan, const std::vector<LabelledGrain>& grains,
+                             const std::vector<std::uint32_t>& kept, const AvatarSettings& settings,
+                             const std::function<void(std::size_t)>& on_progress) {
+  std::vector<std::optional<Avatar>> made(kept.size());
+  std::vector<std::string> refused(kept.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallel_for(kept.size(), 1, [&](std::size_t n) {
+    try {
+      made[n] = make_avatar(scan, kept[n], grains[kept[n] - 1], settings);
+    } catch (const Error& error) {
+      refused[n] = error.what();
+    }
+    const std::lock_guard lock{mutex};
+    if (on_progress) on_progress(++done);
+  });
+  ScannedAssembly assembly;
+  std::vector<double> solid_gray;
+  for (std::size_t n = 0; n < made.size(); ++n) {
+    if (!made[n]) {
+      assembly.refused.push_back(refused[n]);
+      continue;
+    }
+    const auto place = static_cast<std::uint32_t>(assembly.shapes.size());
+    assembly.shapes.push_back(std::move(made[n]->shape));
+    assembly.grains.push_back(made[n]->grain);
+    assembly.grains.back().id = GrainId{place};
+    assembly.grains.back().shape = ShapeId{place};
+    assembly.quality.push_back(made[n]->quality);
+    solid_gray.push_back(made[n]->solid_gray);
+  }
+  if (assembly.shapes.empty()) {
+    throw Error{{.place = "avatars",
+                 .problem = "no grain became an avatar",
+                 .reason = assembly.refused.empty()
+                               ? "all are tiny or cut off by the volume's border"
+                               : assembly.refused.front(),
+                 .fix = "Look at the pictures of the slices; check --voxel, --threshold and "
+                        "--fewest-voxels."}};
+  }
+  find_contacts(scan, solid_gray, settings.contact_gap, assembly);
+  return assembly;
+}
+
+}  // namespace reckon

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "reckon/grains/grains.hpp"
+#include "reckon/scan/volume.hpp"
+#include "reckon/shape/shape.hpp"
+
+namespace reckon {
+
+/// What a scanner does to the solid that it sees. Gray values are in units of the step from void to
+/// solid.
+struct ScannerSettings {
+  double voxel{0};            ///< edge of a voxel [m]
+  double margin{4};           ///< void around the grains [voxels]
+  bool partial_volume{true};  ///< a voxel's value is its solid share; else its centre decides
+  double blur{0.8};           ///< standard deviation of the point spread function [voxels]
+  double noise{0.05};         ///< standard deviation of the white noise
+  double beam_hardening{0};   ///< share of its value that solid on the volume's axis loses
+  double void_gray{10000};
+  double solid_gray{40000};
+  std::uint64_t seed{1};
+
+  /// Throws Error naming the setting that is out of range.
+  void validate() const;
+};
+
+/// A scan and what is known of it.
+struct SimulatedScan {
+  GrayVolume gray;
+  LabelVolume labels;              ///< the place of a grain in `grains`, from 1
+  std::vector<GrainState> grains;  ///< as scanned, in the volume's world frame
+};
+
+/// Brings a shape with its grid.
+using ReadShape = std::function<Shape(ShapeId)>;
+
+/// Scans an assembly: what an X-ray tomograph would make of it.
+///
+/// 1. Solid share of each voxel: 4 x 4 x 4 points in each voxel near a surface are looked up in
+///    the interpolated grids, so grains that overlap do not count twice.
+/// 2. Beam hardening: cupping about the volume's axis along z, where a share b of the solid's gray
+///    is lost: factor 1 - b (1 - (r/R)^2), with R the volume's half diagonal across z.
+/// 3. The point spread function, a Gaussian.
+/// 4. White Gaussian noise, a function of seed and voxel.
+///
+/// The volume holds all grains and a margin; `grains` come out in its world frame. Uses all
+/// threads; the result does not depend on their number. Throws Error when there are no grains or
+/// the volume would have more than 2^31 voxels.
+[[nodiscard]] SimulatedScan scan_assembly(const std::vector<GrainState>& grains,
+                                          const ReadShape& read_shape,
+                                          const ScannerSettings& settings);
+
+/// A Gaussian filter of this standard deviation [voxels], edges continued; 0 changes nothing.
+void blur_volume(GrayVolume& volume, double deviation);
+
+}  // namespace reckon

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/scan/volume_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "reckon/avatar/text_reader.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/core/file.hpp"
+#include "reckon/scan/volume_formats.hpp"
+
+namespace reckon {
+namespace {
+
+constexpr double most_labels = 16777216;  // a float counts so far
+
+[[noreturn]] void fail(const std::string& place, std::string problem, std::string reason,
+                       std::string fix) {
+  throw Error{{.place = place,
+               .problem = std::move(problem),
+               .reason = std::move(reason),
+               .fix = std::move(fix)}};
+}
+
+std::string ending_of(const std::filesystem::path& file) {
+  return lower_case(file.extension().string());
+}
+
+bool is_tiff(const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
+  return ending == ".tif" || ending == ".tiff";
+}
+
+bool needs_ct(const std::string& ending) {
+  constexpr std::array endings{".mha", ".mhd", ".nrrd", ".nhdr", ".tif", ".tiff"};
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+[[noreturn]] void refuse_ending(const std::filesystem::path& file) {
+  fail(file.string(), "this kind of file is not known as a volume",
+       fmt::format("its name ends in \"{}\"", file.extension().string()),
+       "Give .tif, .nrrd, .mha, .raw, .npy or .h5, or a folder of TIFF slices.");
+}
+
+std::filesystem::path sidecar_of(const std::filesystem::path& file) {
+  return file.string() + ".txt";
+}
+
+StoredVolume read_slices(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator{folder}) {
+    if (entry.is_regular_file() && is_tiff(entry.path())) files.push_back(entry.path());
+  }
+  if (files.empty()) {
+    fail(folder.string(), "the folder holds no TIFF slices", {},
+         "Name a folder of .tif files, one slice each, or a volume file.");
+  }
+  std::sort(files.begin(), files.end());
+  return read_itk_slices(files);
+}
+
+StoredVolume read_raw(const std::filesystem::path& file) {
+  const std::filesystem::path sidecar = sidecar_of(file);
+  if (!std::filesystem::exists(sidecar)) {
+    fail(file.string(), "a raw volume does not say what its numbers are",
+         "there is no " + sidecar.filename().string() + " beside it",
+         "Write that file: lines `dims NX NY NZ`, `type uint16`, `order little`.");
+  }
+  return parse_raw(read_file(file), read_file(sidecar), file.string());
+}
+
+StoredVolume read_stored(const VolumeRequest& request) {
+  const std::filesystem::path& file = request.file;
+  if (std::filesystem::is_directory(file)) return read_slices(file);
+  if (!std::filesystem::exists(file)) {
+    fail(file.string(), "there is no such file", {}, "Check its name.");
+  }
+  const std::string ending = ending_of(file);
+  if (ending == ".raw") return read_raw(file);
+  if (ending == ".npy") return parse_npy(read_file(file), file.string());
+  if (ending == ".h5" || ending == ".hdf5") return read_hdf5_volume(file, request.dataset);
+  if (needs_ct(ending)) return read_itk_volume(file);
+  refuse_ending(file);
+}
+
+/// The file's own spacing has no sure unit, and many programs write 1 for "not known". If it fits
+/// in no unit, somebody is mistaken.
+void check_spacing(const StoredVolume& stored, double voxel, const std::string& place) {
+  if (!stored.spacing || *stored.spacing == 1) return;
+  for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
+    if (std::abs(*stored.spacing * unit / voxel - 1) < 0.01) return;
+  }
+  fail(place, "the file tells another voxel than was given",
+       fmt::format("{:.6g} in the file, {:.6g} m given; they agree in none of m, mm, um and nm",
+                   *stored.spacing, voxel),
+       "Check --voxel.");
+}
+
+}  // namespace
+
+StoredVolume read_volume(const VolumeRequest& request) {
+  StoredVolume stored = read_stored(request);
+  const std::string place = request.file.string();
+  check_spacing(stored, request.voxel, place);
+  const auto bad = std::find_if(stored.gray.values.begin(), stored.gray.values.end(),
+                                [](float value) { return !std::isfinite(value); });
+  if (bad != stored.gray.values.end()) {
+    fail(place, "the volume holds a value that is not finite",
+         fmt::format("voxel {} in the file's order", bad - stored.gray.values.begin()),
+         "Replace such values first.");
+  }
+  stored.gray.voxel = request.voxel;
+  return stored;
+}
+
+void write_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type) {
+  const std::string ending = ending_of(file);
+  if (ending == ".raw") {
+    write_file(sidecar_of(file),
+               fmt::format("dims {} {} {}\ntype {}\norder little\n", volume.dims[0], volume.dims[1],
+                           volume.dims[2], name_of(type)));
+    return write_file(file, encode_numbers(volume.values, type));
+  }
+  if (ending == ".npy") {
+    std::string header =
+        fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}, {}), }}",
+                    numpy_name_of(type), volume.dims[2], volume.dims[1], volume.dims[0]);
+    while ((10 + header.size() + 1) % 64 != 0) header += ' ';
+    header += '\n';
+    const std::string size{static_cast<char>(header.size() & 255U),
+                           static_cast<char>(header.size() >> 8U)};
+    const std::string numbers = encode_numbers(volume.values, type);
+    const std::array<std::string_view, 4> parts{std::string_view{"\x93NUMPY\x01\x00", 8}, size,
+                                                header, numbers};
+    return write_file(file, parts);
+  }
+  if (ending == ".h5" || ending == ".hdf5") return write_hdf5_volume(file, volume, type);
+  if (!needs_ct(ending)) refuse_ending(file);
+  write_itk_volume(file, volume, type);
+}
+
+GrayVolume to_gray(const LabelVolume& labels) {
+  GrayVolume gray{labels};
+  for (std::size_t v = 0; v < labels.values.size(); ++v) {
+    if (labels.values[v] >= most_labels) {
+      fail("labels", "there are too many grains for this program", "more than 2^24",
+           "Cut the volume into parts.");
+    }
+    gray.values[v] = static_cast<float>(labels.values[v]);
+  }
+  return gray;
+}
+
+LabelVolume to_labels(const GrayVolume& volume, const std::string& place) {
+  LabelVolume labels{volume};
+  for (std::size_t v = 0; v < volume.values.size(); ++v) {
+    const float value = volume.values[v];
+    if (!(value >= 0 && value < most_labels && value == std::floor(value))) {
+      fail(place, "the volume holds no labels",
+           fmt::format("{} is no whole number from 0 to 16777215", value),
+           "Leave out --labelled if it is a gray volume.");
+    }
+    labels.values[v] = static_cast<std::uint32_t>(value);
+  }
+  return labels;
+}
+
+}  // namespace reckon

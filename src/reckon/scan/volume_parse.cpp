@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include "reckon/avatar/text_reader.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/scan/volume_formats.hpp"
+
+namespace reckon {
+namespace {
+
+[[noreturn]] void fail(const std::string& place, std::string problem, std::string reason,
+                       std::string fix) {
+  throw Error{{.place = place,
+               .problem = std::move(problem),
+               .reason = std::move(reason),
+               .fix = std::move(fix)}};
+}
+
+/// The volume of these numbers, which must be all that there are.
+StoredVolume assemble(const std::array<std::int64_t, 3>& dims, VoxelType type, bool swap,
+                      std::string_view bytes, const std::string& place) {
+  check_dims(dims, bytes.size() / size_of(type), place);
+  const auto count = static_cast<std::uint64_t>(dims[0]) * static_cast<std::uint64_t>(dims[1]) *
+                     static_cast<std::uint64_t>(dims[2]);
+  if (count * size_of(type) != bytes.size()) {
+    fail(place, "the volume and its header disagree",
+         fmt::format("{} x {} x {} {} take {} bytes, {} are there", dims[0], dims[1], dims[2],
+                     name_of(type), count * size_of(type), bytes.size()),
+         "Check dimensions and type.");
+  }
+  StoredVolume stored;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    stored.gray.dims[axis] = static_cast<std::int32_t>(dims[axis]);
+  }
+  stored.gray.values = decode_numbers(bytes, type, swap);
+  stored.type = type;
+  return stored;
+}
+
+/// What stands behind a key of a NumPy header, up to the next comma outside brackets.
+std::string_view value_after(std::string_view header, std::string_view key,
+                             const std::string& place) {
+  const std::size_t found = header.find(key);
+  const std::size_t colon = found == std::string_view::npos ? found : header.find(':', found);
+  if (colon == std::string_view::npos) {
+    fail(place, fmt::format("the NumPy header has no {}", key), {}, "Save the array anew.");
+  }
+  std::string_view rest = header.substr(colon + 1);
+  rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
+  const char close = rest.starts_with('(') ? ')' : ',';
+  return rest.substr(0, rest.find(close));
+}
+
+/// The lengths in "(nz, ny, nx", z first.
+std::array<std::int64_t, 3> numpy_shape(std::string_view text, const std::string& place) {
+  std::array<std::int64_t, 3> shape{};
+  std::size_t count = 0;
+  for (const char* at = text.data(); at < text.data() + text.size();) {
+    if (*at < '0' || *at > '9') {
+      ++at;
+      continue;
+    }
+    std::int64_t length = 0;
+    const auto [end, code] = std::from_chars(at, text.data() + text.size(), length);
+    if (code != std::errc{}) fail(place, "the array's shape is too large", {}, "Save it anew.");
+    if (count < 3) shape[count] = length;
+    ++count;
+    at = end;
+  }
+  if (count != 3) {
+    fail(place, "the array is no volume", fmt::format("it has {} dimensions", count),
+         "Save an array of three dimensions, the last of which is x.");
+  }
+  return shape;
+}
+
+}  // namespace
+
+StoredVolume parse_npy(std::string_view bytes, const std::string& name) {
+  constexpr std::string_view magic{"\x93NUMPY", 6};
+  if (bytes.size() < 12 || !bytes.starts_with(magic)) {
+    fail(name, "this is no NumPy file", "it does not begin with \\x93NUMPY",
+         "Save the array with numpy.save.");
+  }
+  const auto byte = [&](std::size_t n) {
+    return static_cast<std::size_t>(static_cast<unsigned char>(bytes[n]));
+  };
+  const bool long_header = byte(6) >= 2;
+  const std::size_t start = long_header ? 12 : 10;
+  std::size_t length = byte(8) + 256 * byte(9);
+  if (long_header) length += 65536 * byte(10) + 16777216 * byte(11);
+  if (length > bytes.size() - start) {
+    fail(name, "the NumPy file is cut short", "its header is not whole", "Copy it again.");
+  }
+  const std::string_view header = bytes.substr(start, length);
+  std::string_view descr = value_after(header, "'descr'", name);
+  if (descr.starts_with('\'')) descr.remove_prefix(1);
+  if (descr.ends_with('\'')) descr.remove_suffix(1);
+  const bool big = descr.starts_with('>');
+  if (!descr.empty() && std::string_view{"<>|="}.find(descr.front()) != std::string_view::npos) {
+    descr.remove_prefix(1);
+  }
+  const auto type = voxel_type_named(descr);
+  if (!type) {
+    fail(name, "the array's type is not known", fmt::format("\"{}\"", descr),
+         "Save it as integers of at most 32 bits or as floats.");
+  }
+  if (value_after(header, "'fortran_order'", name).starts_with("True")) {
+    fail(name, "the array is in Fortran order", {}, "Save numpy.ascontiguousarray(a).");
+  }
+  const auto shape = numpy_shape(value_after(header, "'shape'", name), name);
+  return assemble({shape[2], shape[1], shape[0]}, *type, big, bytes.substr(start + length), name);
+}
+
+StoredVolume parse_raw(std::string_view bytes, std::string_view sidecar, const std::string& name) {
+  const std::string sidecar_name = name + ".txt";
+  TextReader reader{sidecar, sidecar_name};
+  std::array<std::int64_t, 3> dims{};
+  std::optional<VoxelType> type;
+  bool big = false;
+  while (reader.next_line()) {
+    const std::string_view key = reader.next_token();
+    if (key.empty() || key.starts_with('#')) continue;
+    if (key == "dims") {
+      for (std::int64_t& dim : dims) dim = reader.next_integer("number of voxels");
+    } else if (key == "type") {
+      const std::string_view word = reader.next_token();
+      type = voxel_type_named(word);
+      if (!type) {
+        reader.fail("the type is not known", in_quotes(word),
+                    "There are uint8, int8, uint16, int16, uint32, int32, float32 and float64.");
+      }
+    } else if (key == "order") {
+      const std::string_view word = reader.next_token();
+      if (word != "little" && word != "big") {
+        reader.fail("the byte order is not known", in_quotes(word), "Write little or big.");
+      }
+      big = word == "big";
+    } else {
+      reader.fail("the line is not understood", in_quotes(key),
+                  "Lines are `dims NX NY NZ`, `type uint16`, `order little`.");
+    }
+  }
+  if (!type || dims[0] == 0) {
+    fail(sidecar_name, "dims or type are missing", {},
+         "Write lines `dims NX NY NZ`, `type uint16`, `order little`.");
+  }
+  return assemble(dims, *type, big, bytes, name);
+}
+
+}  // namespace reckon
