@@ -125,6 +125,8 @@ void add_grains_command(CLI::App& app) {
   add_grains_export(*grains);
   add_grains_scan(*grains);
   add_grains_from_scan(*grains);
+  add_grains_moved(*grains);
+  add_grains_statistics(*grains);
 }
 
 }  // namespace reckon::app

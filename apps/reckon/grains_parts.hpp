@@ -24,6 +24,8 @@ void add_grains_info(CLI::App& grains);
 void add_grains_export(CLI::App& grains);
 void add_grains_scan(CLI::App& grains);
 void add_grains_from_scan(CLI::App& grains);
+void add_grains_moved(CLI::App& grains);
+void add_grains_statistics(CLI::App& grains);
 
 /// A length such as "0.2mm" [m]. Throws Error naming `option` when it is no length above zero; a
 /// number without unit is refused, since nobody can tell what it means.

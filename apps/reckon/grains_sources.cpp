@@ -14,6 +14,7 @@
 #include "grains_parts.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/avatar/shape_sources.hpp"
+#include "reckon/avatar/shape_statistics.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/io/human.hpp"
@@ -228,8 +229,26 @@ struct GenerateOptions {
   std::string median{"1mm"};
   std::string smallest;
   std::string largest;
+  std::string like;
   GrainStatistics statistics;
 };
+
+/// The generator's statistics that make grains like those of a library, told on the way.
+GrainStatistics statistics_of(const std::string& library, std::uint64_t seed) {
+  const ShapeLibrary model = load_library(library);
+  fmt::print("trial      roundness  convexity\n");
+  const GrainStatistics s =
+      match_statistics(model, seed, {}, [](double roundness, double convexity) {
+        fmt::print("           {:9.4f}  {:9.4f}\n", roundness, convexity);
+      });
+  fmt::print(
+      "matched    --d50 {:.6g}m --log-deviation {:.4g} --elongation {:.4g} --elongation-deviation "
+      "{:.4g} --flatness {:.4g} --flatness-deviation {:.4g} --roundness {:.4g} "
+      "--roundness-deviation {:.4g} --roughness {:.4g}\n",
+      s.median_diameter, s.log_deviation, s.elongation.mean, s.elongation.deviation,
+      s.flatness.mean, s.flatness.deviation, s.roundness.mean, s.roundness.deviation, s.roughness);
+  return s;
+}
 
 void add_generate(CLI::App& grains) {
   CLI::App* command =
@@ -262,15 +281,28 @@ void add_generate(CLI::App& grains) {
   number("--hurst", s.hurst, "Hurst exponent of the relief; larger is smoother");
   number("--lowest-degree", s.lowest_degree, "Longest wave of the relief: 2 pi radius / degree");
   number("--highest-degree", s.highest_degree, "Shortest wave of the relief");
+  auto* like = command->add_option(
+      "--like", own->like, "Match the statistics of this library's grains instead of giving them");
+  for (CLI::Option* option : command->get_options()) {
+    const std::string name = option->get_name();
+    if (name != "--count" && name != "--seed" && name != "--like" && name != "--help") {
+      like->excludes(option);
+    }
+  }
   const auto options = add_make_options(*command);
   command->callback([=] {
+    if (options->threads > 0) set_thread_count(options->threads);
     GrainStatistics statistics = own->statistics;
-    statistics.median_diameter = parse_length("--d50", own->median);
-    if (!own->smallest.empty()) {
-      statistics.smallest_diameter = parse_length("--smallest", own->smallest);
-    }
-    if (!own->largest.empty()) {
-      statistics.largest_diameter = parse_length("--largest", own->largest);
+    if (!own->like.empty()) {
+      statistics = statistics_of(own->like, own->seed);
+    } else {
+      statistics.median_diameter = parse_length("--d50", own->median);
+      if (!own->smallest.empty()) {
+        statistics.smallest_diameter = parse_length("--smallest", own->smallest);
+      }
+      if (!own->largest.empty()) {
+        statistics.largest_diameter = parse_length("--largest", own->largest);
+      }
     }
     statistics.validate();
     std::vector<ShapeSource> sources;

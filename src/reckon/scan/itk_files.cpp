@@ -66,6 +66,7 @@ VoxelType type_of(itk::IOComponentEnum component) {
 /// smaller.
 void inspect(itk::ImageIOBase& io, const std::filesystem::path& file, unsigned dimensions) {
   constexpr std::uint64_t most_compression = 2000;
+  if (dynamic_cast<itk::TIFFImageIO*>(&io) != nullptr) check_tiff_pages(file);
   if (!io.CanReadFile(file.c_str())) {
     fail(file, "the file is not what its name says", "its header is damaged or of another kind",
          "Copy it again, or give it the right ending.");
@@ -90,6 +91,9 @@ void inspect(itk::ImageIOBase& io, const std::filesystem::path& file, unsigned d
   const std::uint64_t bytes =
       data_elsewhere ? std::uint64_t{1} << 40U : std::filesystem::file_size(file);
   check_dims(dims, bytes * most_compression / io.GetComponentSize() + 1, file.string());
+  if (dynamic_cast<itk::MetaImageIO*>(&io) != nullptr) {
+    check_metaimage_size(file, static_cast<std::uint64_t>(io.GetImageSizeInBytes()));
+  }
 }
 
 template <unsigned dimensions>

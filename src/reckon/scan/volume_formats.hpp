@@ -30,6 +30,13 @@ void check_dims(const std::array<std::int64_t, 3>& dims, std::uint64_t most,
                                             const std::string& dataset);
 void write_hdf5_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type);
 
+// The libraries that read these formats are content with less than a whole file.
+
+/// Throws Error unless all pages of a TIFF file are there and of one size.
+void check_tiff_pages(const std::filesystem::path& file);
+/// Throws Error unless a MetaImage's data, of so many bytes when not compressed, are all there.
+void check_metaimage_size(const std::filesystem::path& file, std::uint64_t bytes);
+
 // Those of the component `ct`.
 
 /// MetaImage, NRRD or TIFF by the ending.

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grains_parts.hpp"
+#include "reckon/avatar/library_file.hpp"
+#include "reckon/avatar/shape_statistics.hpp"
+#include "reckon/core/file.hpp"
+
+namespace reckon::app {
+namespace {
+
+void print_spreads(const ShapeLibrary& library) {
+  fmt::print("{:<14} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "", "mean", "deviation",
+             "least", "10 %", "median", "90 %", "most");
+  for (const ShapeMeasure& measure : shape_measures()) {
+    const MeasureSpread s = spread_of(library, measure);
+    fmt::print("{:<14} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g}\n",
+               measure.name, s.mean, s.deviation, s.low, s.tenth, s.median, s.ninetieth, s.high);
+  }
+}
+
+std::string as_csv(const ShapeLibrary& library) {
+  std::string text = "grain";
+  for (const ShapeMeasure& measure : shape_measures()) text += fmt::format(",{}", measure.name);
+  text += '\n';
+  for (const Shape& shape : library) {
+    text += shape.name;
+    for (const ShapeMeasure& measure : shape_measures()) {
+      text += fmt::format(",{:.8g}", measure.of(shape));
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_grains_statistics(CLI::App& grains) {
+  CLI::App* command = grains.add_subcommand(
+      "statistics", "How size and form are spread over a library; a line per grain as CSV");
+  command->footer("Example:\n  reckon grains statistics sand.h5 -o sand.csv");
+  struct Options {
+    std::string library;
+    std::string output;
+  };
+  auto options = std::make_shared<Options>();
+  command->add_option("library", options->library, "Shape library (.h5) or legacy folder")
+      ->required();
+  command->add_option("-o,--output", options->output, "Write a line per grain to this .csv");
+  command->callback([=] {
+    const ShapeLibrary library = load_library(options->library);
+    if (!options->output.empty()) write_file(options->output, as_csv(library));
+    print_spreads(library);
+  });
+}
+
+}  // namespace reckon::app

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "reckon/avatar/byte_reader.hpp"
+#include "reckon/avatar/text_reader.hpp"
+#include "reckon/core/error.hpp"
+#include "reckon/scan/volume_formats.hpp"
+
+namespace reckon {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, std::string problem, std::string reason,
+                       std::string fix) {
+  throw Error{{.place = file.string(),
+               .problem = std::move(problem),
+               .reason = std::move(reason),
+               .fix = std::move(fix)}};
+}
+
+[[noreturn]] void fail_cut_short(const std::filesystem::path& file, std::string reason) {
+  fail(file, "the file is cut short or damaged", std::move(reason), "Copy it again.");
+}
+
+/// Reads pieces of a TIFF file by their places.
+class TiffFile {
+ public:
+  explicit TiffFile(const std::filesystem::path& path)
+      : path_{path}, size_{std::filesystem::file_size(path)}, stream_{path, std::ios::binary} {
+    const std::string head = bytes(0, 8);
+    if (!head.starts_with("II") && !head.starts_with("MM")) {
+      fail(path, "this is no TIFF file", "it begins with neither II nor MM", "Check its name.");
+    }
+    order_ = head[0] == 'I' ? ByteReader::Order::little_endian : ByteReader::Order::big_endian;
+    big_ = number(2, 2) == 43;
+  }
+
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  [[nodiscard]] bool big() const { return big_; }
+  [[nodiscard]] std::uint64_t number(std::uint64_t offset, std::size_t length) {
+    const std::string text = bytes(offset, length);
+    return ByteReader{text, path_.string(), order_}.unsigned_integer(length);
+  }
+
+ private:
+  std::string bytes(std::uint64_t offset, std::size_t length) {
+    if (offset > size_ || length > size_ - offset) {
+      fail_cut_short(path_, fmt::format("byte {} is beyond its end", offset + length));
+    }
+    std::string text(length, '\0');
+    stream_.seekg(static_cast<std::streamoff>(offset));
+    stream_.read(text.data(), static_cast<std::streamsize>(length));
+    return text;
+  }
+
+  const std::filesystem::path& path_;
+  std::uint64_t size_;
+  std::ifstream stream_;
+  ByteReader::Order order_{ByteReader::Order::little_endian};
+  bool big_{false};
+};
+
+/// What a page's directory says that matters here.
+struct TiffPage {
+  std::uint64_t width{0};
+  std::uint64_t height{0};
+  std::uint64_t next{0};      // the next page's directory; 0: none
+  std::uint64_t data_end{0};  // of the last strip or tile
+};
+
+constexpr std::uint64_t tag_width = 256;
+constexpr std::uint64_t tag_height = 257;
+constexpr std::uint64_t tag_strip_offsets = 273;
+constexpr std::uint64_t tag_strip_sizes = 279;
+constexpr std::uint64_t tag_tile_offsets = 324;
+constexpr std::uint64_t tag_tile_sizes = 325;
+
+std::size_t size_of_type(std::uint64_t type) {
+  return type == 3 ? 2 : type == 16 || type == 17 || type == 18 ? 8 : type == 1 ? 1 : 4;
+}
+
+TiffPage read_page(TiffFile& file, std::uint64_t directory) {
+  const std::size_t word = file.big() ? 8 : 4;
+  const std::size_t entry_size = 4 + 2 * word;
+  const std::size_t count_size = file.big() ? 8 : 2;
+  const std::uint64_t entries = file.number(directory, count_size);
+  TiffPage page;
+  // The last values of the lists of offsets and sizes: that strip ends the page's data.
+  std::uint64_t last_offset = 0;
+  std::uint64_t last_size = 0;
+  for (std::uint64_t e = 0; e < entries; ++e) {
+    const std::uint64_t at = directory + count_size + e * entry_size;
+    const std::uint64_t tag = file.number(at, 2);
+    const std::size_t length = size_of_type(file.number(at + 2, 2));
+    const std::uint64_t count = std::min(file.number(at + 4, word), file.size());
+    const bool inside = count * length <= word;
+    const std::uint64_t values = inside ? at + 4 + word : file.number(at + 4 + word, word);
+    const auto last = [&] {
+      return file.number(values + (std::max<std::uint64_t>(count, 1) - 1) * length, length);
+    };
+    if (tag == tag_width) page.width = last();
+    if (tag == tag_height) page.height = last();
+    if (tag == tag_strip_offsets || tag == tag_tile_offsets) last_offset = last();
+    if (tag == tag_strip_sizes || tag == tag_tile_sizes) last_size = last();
+  }
+  page.next = file.number(directory + count_size + entries * entry_size, word);
+  page.data_end = last_offset + last_size;
+  return page;
+}
+
+/// The value behind `key =` in a MetaImage header.
+std::optional<std::string> meta_value(const std::string& header, std::string_view key) {
+  TextReader reader{header, "header"};
+  while (reader.next_line()) {
+    if (reader.next_token() != key) continue;
+    (void)reader.next_token();  // the equals sign
+    return std::string{reader.next_token()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void check_tiff_pages(const std::filesystem::path& path) {
+  TiffFile file{path};
+  std::uint64_t directory = file.big() ? file.number(8, 8) : file.number(4, 4);
+  std::optional<TiffPage> first;
+  std::uint64_t pages = 0;
+  while (directory != 0) {
+    const TiffPage page = read_page(file, directory);
+    ++pages;
+    if (!first) first = page;
+    if (page.width != first->width || page.height != first->height) {
+      fail(path, "the pages of the stack differ in size",
+           fmt::format("page {} has {} x {} pixels, the first {} x {}", pages, page.width,
+                       page.height, first->width, first->height),
+           "Give a stack whose slices all have one size.");
+    }
+    if (page.data_end > file.size()) {
+      fail_cut_short(path, fmt::format("page {} ends at byte {}, the file at {}", pages,
+                                       page.data_end, file.size()));
+    }
+    if (pages > file.size() / 16) fail_cut_short(path, "its pages follow each other in a circle");
+    directory = page.next;
+  }
+  if (pages == 0) fail_cut_short(path, "it has no pages");
+}
+
+void check_metaimage_size(const std::filesystem::path& path, std::uint64_t bytes) {
+  constexpr std::size_t longest_header = 65536;
+  std::string header(std::min<std::uint64_t>(longest_header, std::filesystem::file_size(path)), 0);
+  std::ifstream{path, std::ios::binary}.read(header.data(),
+                                             static_cast<std::streamsize>(header.size()));
+  const std::size_t last_key = header.find("ElementDataFile");
+  const std::size_t end = last_key == std::string::npos ? last_key : header.find('\n', last_key);
+  if (end == std::string::npos) fail_cut_short(path, "its header does not end");
+  header.resize(end + 1);
+  const std::string where = meta_value(header, "ElementDataFile").value_or("");
+  std::filesystem::path data = path;
+  std::uint64_t start = header.size();
+  if (where != "LOCAL" && where != "Local" && where != "local") {
+    if (where.empty() || where == "LIST" || where.find('%') != std::string::npos) {
+      fail(path, "its numbers are spread over several files", where, "Save it as one .mha file.");
+    }
+    data = path.parent_path() / where;
+    start = 0;
+  }
+  if (!std::filesystem::is_regular_file(data)) {
+    fail(path, "the file that holds its numbers is missing", data.string(), "Put it beside it.");
+  }
+  if (meta_value(header, "CompressedData").value_or("False") == "True") {
+    const auto size = meta_value(header, "CompressedDataSize");
+    if (!size) return;
+    TextReader reader{*size, path.string()};
+    reader.next_line();
+    bytes = static_cast<std::uint64_t>(
+        std::max<std::int64_t>(reader.to_integer(*size, "size of the compressed data"), 0));
+  }
+  const std::uint64_t there = std::filesystem::file_size(data);
+  if (there < start || there - start < bytes) {
+    fail_cut_short(path, fmt::format("its numbers need {} bytes, {} are there", bytes,
+                                     there < start ? 0 : there - start));
+  }
+}
+
+}  // namespace reckon

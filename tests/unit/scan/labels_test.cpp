@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/scan/labels.hpp"
+
+#include <gtest/gtest.h>
+
+namespace reckon {
+namespace {
+
+/// One line of voxels along x.
+LabelVolume line(const std::vector<std::uint32_t>& labels) {
+  LabelVolume volume{{static_cast<std::int32_t>(labels.size()), 1, 1}, 1};
+  volume.values = labels;
+  return volume;
+}
+GrayVolume depths(const std::vector<float>& values) {
+  GrayVolume volume{{static_cast<std::int32_t>(values.size()), 1, 1}, 1};
+  volume.values = values;
+  return volume;
+}
+
+TEST(Labels, WideNecksAreJoinedAndNarrowOnesNot) {
+  const GrayVolume depth = depths({1, 10, 9.5F, 9.4F, 10, 3, 2.9F, 8, 1});
+  LabelVolume labels = line({1, 1, 1, 2, 2, 2, 3, 3, 3});
+  EXPECT_EQ(join_wide_necks(labels, depth, 0.9), 1U);
+  EXPECT_EQ(labels.values, (std::vector<std::uint32_t>{1, 1, 1, 1, 1, 1, 3, 3, 3}));
+  LabelVolume strict = line({1, 1, 1, 2, 2, 2, 3, 3, 3});
+  EXPECT_EQ(join_wide_necks(strict, depth, 0.95), 0U);
+}
+
+TEST(Labels, NumbersFollowTheFirstVoxels) {
+  LabelVolume labels = line({0, 7, 7, 3, 0, 9, 7});
+  EXPECT_EQ(renumber(labels), 3U);
+  EXPECT_EQ(labels.values, (std::vector<std::uint32_t>{0, 1, 1, 2, 0, 3, 1}));
+}
+
+TEST(Labels, GrainsAreCountedByWhyTheyAreDropped) {
+  LabelVolume labels{{9, 5, 5}, 1};
+  const auto fill = [&](std::int32_t low, std::int32_t high, std::uint32_t label) {
+    for (std::int32_t k = 1; k < 4; ++k) {
+      for (std::int32_t j = 1; j < 4; ++j) {
+        for (std::int32_t i = low; i <= high; ++i) labels.values[labels.index(i, j, k)] = label;
+      }
+    }
+  };
+  fill(0, 1, 1);
+  fill(3, 4, 2);
+  fill(6, 6, 3);
+  const auto grains = measure_labels(labels);
+  ASSERT_EQ(grains.size(), 3U);
+  EXPECT_EQ(grains[1].voxels, 18U);
+  EXPECT_EQ(grains[1].low, (std::array<std::int32_t, 3>{3, 1, 1}));
+  EXPECT_EQ(grains[1].high, (std::array<std::int32_t, 3>{4, 3, 3}));
+  const GrainChoice choice = choose_grains(grains, false, 10);
+  EXPECT_EQ(choice.kept, std::vector<std::uint32_t>{2});
+  EXPECT_EQ(choice.on_border, 1U);
+  EXPECT_EQ(choice.tiny, 1U);
+  EXPECT_EQ(choose_grains(grains, true, 10).kept, (std::vector<std::uint32_t>{1, 2}));
+}
+
+TEST(Labels, GrowLayerByLayerAndTheLowerNumberWinsTies) {
+  EXPECT_EQ(grown(line({2, 0, 0, 0, 0, 0, 1}), 2).values,
+            (std::vector<std::uint32_t>{2, 2, 2, 0, 1, 1, 1}));
+  EXPECT_EQ(grown(line({2, 0, 0, 0, 1}), 2).values, (std::vector<std::uint32_t>{2, 2, 1, 1, 1}));
+}
+
+}  // namespace
+}  // namespace reckon
