@@ -19,7 +19,13 @@ std::vector<Target> all_targets() {
           shape_library_target(),
           checkpoint_target(),
           history_target(),
-          number_table_target()};
+          number_table_target(),
+          placement_target(),
+          volume_npy_target(),
+          volume_raw_target(),
+          volume_mha_target(),
+          volume_nrrd_target(),
+          volume_tif_target()};
 }
 
 }  // namespace reckon::fuzz

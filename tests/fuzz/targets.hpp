@@ -20,5 +20,11 @@ namespace reckon::fuzz {
 [[nodiscard]] Target checkpoint_target();
 [[nodiscard]] Target history_target();
 [[nodiscard]] Target number_table_target();
+[[nodiscard]] Target placement_target();
+[[nodiscard]] Target volume_npy_target();
+[[nodiscard]] Target volume_raw_target();
+[[nodiscard]] Target volume_mha_target();
+[[nodiscard]] Target volume_nrrd_target();
+[[nodiscard]] Target volume_tif_target();
 
 }  // namespace reckon::fuzz

@@ -74,6 +74,24 @@ StoredVolume read_raw(const std::filesystem::path& file) {
   return parse_raw(read_file(file), read_file(sidecar), file.string());
 }
 
+/// MetaImage or NRRD. Only compressed numbers need the toolkit.
+StoredVolume read_with_text_header(const std::filesystem::path& file, bool nrrd) {
+  const std::string bytes = read_file(file);
+  const TextHeader header =
+      nrrd ? parse_nrrd_header(bytes, file.string()) : parse_metaimage_header(bytes, file.string());
+  if (header.compressed) return read_itk_volume(file);
+  std::string_view numbers = std::string_view{bytes}.substr(header.data_start);
+  std::string others;
+  if (!header.data_file.empty()) {
+    others = read_file(file.parent_path() / header.data_file);
+    numbers = others;
+  }
+  StoredVolume stored =
+      assemble_volume(header.dims, header.type, header.big_endian, numbers, file.string());
+  stored.spacing = header.spacing;
+  return stored;
+}
+
 StoredVolume read_stored(const VolumeRequest& request) {
   const std::filesystem::path& file = request.file;
   if (std::filesystem::is_directory(file)) return read_slices(file);
@@ -84,7 +102,9 @@ StoredVolume read_stored(const VolumeRequest& request) {
   if (ending == ".raw") return read_raw(file);
   if (ending == ".npy") return parse_npy(read_file(file), file.string());
   if (ending == ".h5" || ending == ".hdf5") return read_hdf5_volume(file, request.dataset);
-  if (needs_ct(ending)) return read_itk_volume(file);
+  if (ending == ".mha" || ending == ".mhd") return read_with_text_header(file, false);
+  if (ending == ".nrrd" || ending == ".nhdr") return read_with_text_header(file, true);
+  if (is_tiff(file)) return read_itk_volume(file);
   refuse_ending(file);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,16 +31,33 @@ void check_dims(const std::array<std::int64_t, 3>& dims, std::uint64_t most,
                                             const std::string& dataset);
 void write_hdf5_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type);
 
-// The libraries that read these formats are content with less than a whole file.
+/// What the text at the head of a MetaImage or NRRD file says. Headers are read by ourselves: the
+/// libraries for these formats do not survive every damaged header, and take less than a whole file
+/// for whole.
+struct TextHeader {
+  std::array<std::int64_t, 3> dims{};
+  VoxelType type{VoxelType::uint8};
+  bool big_endian{false};
+  bool compressed{false};
+  std::optional<double> spacing;
+  std::string data_file;      ///< beside the header; empty: the numbers follow the header
+  std::size_t data_start{0};  ///< length of the header
+};
+/// Throw Error for whatever they do not understand.
+[[nodiscard]] TextHeader parse_metaimage_header(std::string_view bytes, const std::string& place);
+[[nodiscard]] TextHeader parse_nrrd_header(std::string_view bytes, const std::string& place);
+
+/// The volume of these numbers. Throws Error unless `bytes` are just what it needs.
+[[nodiscard]] StoredVolume assemble_volume(const std::array<std::int64_t, 3>& dims, VoxelType type,
+                                           bool swap, std::string_view bytes,
+                                           const std::string& place);
 
 /// Throws Error unless all pages of a TIFF file are there and of one size.
 void check_tiff_pages(const std::filesystem::path& file);
-/// Throws Error unless a MetaImage's data, of so many bytes when not compressed, are all there.
-void check_metaimage_size(const std::filesystem::path& file, std::uint64_t bytes);
 
 // Those of the component `ct`.
 
-/// MetaImage, NRRD or TIFF by the ending.
+/// TIFF, or MetaImage or NRRD with compressed numbers, by the ending.
 [[nodiscard]] StoredVolume read_itk_volume(const std::filesystem::path& file);
 /// Slices of one volume, in this order.
 [[nodiscard]] StoredVolume read_itk_slices(const std::vector<std::filesystem::path>& files);

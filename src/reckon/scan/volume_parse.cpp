@@ -22,27 +22,6 @@ namespace {
                .fix = std::move(fix)}};
 }
 
-/// The volume of these numbers, which must be all that there are.
-StoredVolume assemble(const std::array<std::int64_t, 3>& dims, VoxelType type, bool swap,
-                      std::string_view bytes, const std::string& place) {
-  check_dims(dims, bytes.size() / size_of(type), place);
-  const auto count = static_cast<std::uint64_t>(dims[0]) * static_cast<std::uint64_t>(dims[1]) *
-                     static_cast<std::uint64_t>(dims[2]);
-  if (count * size_of(type) != bytes.size()) {
-    fail(place, "the volume and its header disagree",
-         fmt::format("{} x {} x {} {} take {} bytes, {} are there", dims[0], dims[1], dims[2],
-                     name_of(type), count * size_of(type), bytes.size()),
-         "Check dimensions and type.");
-  }
-  StoredVolume stored;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    stored.gray.dims[axis] = static_cast<std::int32_t>(dims[axis]);
-  }
-  stored.gray.values = decode_numbers(bytes, type, swap);
-  stored.type = type;
-  return stored;
-}
-
 /// What stands behind a key of a NumPy header, up to the next comma outside brackets.
 std::string_view value_after(std::string_view header, std::string_view key,
                              const std::string& place) {
@@ -82,6 +61,26 @@ std::array<std::int64_t, 3> numpy_shape(std::string_view text, const std::string
 
 }  // namespace
 
+StoredVolume assemble_volume(const std::array<std::int64_t, 3>& dims, VoxelType type, bool swap,
+                             std::string_view bytes, const std::string& place) {
+  check_dims(dims, bytes.size() / size_of(type), place);
+  const auto count = static_cast<std::uint64_t>(dims[0]) * static_cast<std::uint64_t>(dims[1]) *
+                     static_cast<std::uint64_t>(dims[2]);
+  if (count * size_of(type) != bytes.size()) {
+    fail(place, "the volume and its header disagree",
+         fmt::format("{} x {} x {} {} take {} bytes, {} are there", dims[0], dims[1], dims[2],
+                     name_of(type), count * size_of(type), bytes.size()),
+         "Check dimensions and type.");
+  }
+  StoredVolume stored;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    stored.gray.dims[axis] = static_cast<std::int32_t>(dims[axis]);
+  }
+  stored.gray.values = decode_numbers(bytes, type, swap);
+  stored.type = type;
+  return stored;
+}
+
 StoredVolume parse_npy(std::string_view bytes, const std::string& name) {
   constexpr std::string_view magic{"\x93NUMPY", 6};
   if (bytes.size() < 12 || !bytes.starts_with(magic)) {
@@ -115,7 +114,8 @@ StoredVolume parse_npy(std::string_view bytes, const std::string& name) {
     fail(name, "the array is in Fortran order", {}, "Save numpy.ascontiguousarray(a).");
   }
   const auto shape = numpy_shape(value_after(header, "'shape'", name), name);
-  return assemble({shape[2], shape[1], shape[0]}, *type, big, bytes.substr(start + length), name);
+  return assemble_volume({shape[2], shape[1], shape[0]}, *type, big, bytes.substr(start + length),
+                         name);
 }
 
 StoredVolume parse_raw(std::string_view bytes, std::string_view sidecar, const std::string& name) {
@@ -151,7 +151,7 @@ StoredVolume parse_raw(std::string_view bytes, std::string_view sidecar, const s
     fail(sidecar_name, "dims or type are missing", {},
          "Write lines `dims NX NY NZ`, `type uint16`, `order little`.");
   }
-  return assemble(dims, *type, big, bytes, name);
+  return assemble_volume(dims, *type, big, bytes, name);
 }
 
 }  // namespace reckon

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "reckon/avatar/byte_reader.hpp"
-#include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/scan/volume_formats.hpp"
 
@@ -114,17 +113,6 @@ TiffPage read_page(TiffFile& file, std::uint64_t directory) {
   return page;
 }
 
-/// The value behind `key =` in a MetaImage header.
-std::optional<std::string> meta_value(const std::string& header, std::string_view key) {
-  TextReader reader{header, "header"};
-  while (reader.next_line()) {
-    if (reader.next_token() != key) continue;
-    (void)reader.next_token();  // the equals sign
-    return std::string{reader.next_token()};
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 void check_tiff_pages(const std::filesystem::path& path) {
@@ -150,43 +138,6 @@ void check_tiff_pages(const std::filesystem::path& path) {
     directory = page.next;
   }
   if (pages == 0) fail_cut_short(path, "it has no pages");
-}
-
-void check_metaimage_size(const std::filesystem::path& path, std::uint64_t bytes) {
-  constexpr std::size_t longest_header = 65536;
-  std::string header(std::min<std::uint64_t>(longest_header, std::filesystem::file_size(path)), 0);
-  std::ifstream{path, std::ios::binary}.read(header.data(),
-                                             static_cast<std::streamsize>(header.size()));
-  const std::size_t last_key = header.find("ElementDataFile");
-  const std::size_t end = last_key == std::string::npos ? last_key : header.find('\n', last_key);
-  if (end == std::string::npos) fail_cut_short(path, "its header does not end");
-  header.resize(end + 1);
-  const std::string where = meta_value(header, "ElementDataFile").value_or("");
-  std::filesystem::path data = path;
-  std::uint64_t start = header.size();
-  if (where != "LOCAL" && where != "Local" && where != "local") {
-    if (where.empty() || where == "LIST" || where.find('%') != std::string::npos) {
-      fail(path, "its numbers are spread over several files", where, "Save it as one .mha file.");
-    }
-    data = path.parent_path() / where;
-    start = 0;
-  }
-  if (!std::filesystem::is_regular_file(data)) {
-    fail(path, "the file that holds its numbers is missing", data.string(), "Put it beside it.");
-  }
-  if (meta_value(header, "CompressedData").value_or("False") == "True") {
-    const auto size = meta_value(header, "CompressedDataSize");
-    if (!size) return;
-    TextReader reader{*size, path.string()};
-    reader.next_line();
-    bytes = static_cast<std::uint64_t>(
-        std::max<std::int64_t>(reader.to_integer(*size, "size of the compressed data"), 0));
-  }
-  const std::uint64_t there = std::filesystem::file_size(data);
-  if (there < start || there - start < bytes) {
-    fail_cut_short(path, fmt::format("its numbers need {} bytes, {} are there", bytes,
-                                     there < start ? 0 : there - start));
-  }
 }
 
 }  // namespace reckon

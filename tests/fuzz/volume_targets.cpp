@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+
+#include "reckon/core/file.hpp"
+#include "reckon/io/placement_table.hpp"
+#include "reckon/scan/image_filters.hpp"
+#include "reckon/scan/volume_file.hpp"
+#include "scratch.hpp"
+#include "targets.hpp"
+
+namespace reckon::fuzz {
+namespace {
+
+GrayVolume small_volume() {
+  GrayVolume volume{{5, 4, 3}, 2e-6};
+  for (std::size_t v = 0; v < volume.values.size(); ++v) volume.values[v] = static_cast<float>(v);
+  return volume;
+}
+
+/// Readers of the component `ct`: without it nothing is read, which is as good an answer as any.
+Target image_target(const std::string& ending) {
+  const auto folder = std::make_shared<const ScratchFolder>();
+  return {.name = "volume_" + ending,
+          .valid_inputs =
+              [folder, ending] {
+                if (!has_ct_component()) return std::vector<std::string>{""};
+                std::vector<std::string> inputs;
+                for (const VoxelType type : {VoxelType::uint8, VoxelType::float32}) {
+                  const auto file = folder->path() / ("valid." + ending);
+                  write_volume(file, small_volume(), type);
+                  inputs.push_back(read_file(file));
+                }
+                return inputs;
+              },
+          .read =
+              [folder, ending](const std::string& input) {
+                if (!has_ct_component()) return;
+                (void)read_volume({folder->write("volume." + ending, input), 2e-6, {}});
+              },
+          .cost = 10};
+}
+
+}  // namespace
+
+Target volume_npy_target() {
+  const auto folder = std::make_shared<const ScratchFolder>();
+  return {.name = "volume_npy",
+          .valid_inputs =
+              [folder] {
+                const auto file = folder->path() / "valid.npy";
+                write_volume(file, small_volume(), VoxelType::uint16);
+                return std::vector<std::string>{read_file(file)};
+              },
+          .read = [](const std::string& input) { (void)parse_npy(input, "a.npy"); }};
+}
+
+Target volume_raw_target() {
+  return {.name = "volume_raw",
+          .valid_inputs =
+              [] {
+                return std::vector<std::string>{"dims 5 4 3\ntype uint8\norder little\n",
+                                                "# a scan\ndims 3 5 1\ntype float32\norder big\n"};
+              },
+          .read =
+              [](const std::string& input) {
+                (void)parse_raw(std::string(60, '\x3c'), input, "a.raw");
+              }};
+}
+
+Target volume_mha_target() { return image_target("mha"); }
+Target volume_nrrd_target() { return image_target("nrrd"); }
+Target volume_tif_target() { return image_target("tif"); }
+
+Target placement_target() {
+  const auto folder = std::make_shared<const ScratchFolder>();
+  return {.name = "placement",
+          .valid_inputs =
+              [] {
+                return std::vector<std::string>{
+                    "# shape,x_m,y_m,z_m,qw,qx,qy,qz\n0,1,2,3,1,0,0,0\n4,0,-1e-3,2,0.6,0,-0.8,0\n"};
+              },
+          .read =
+              [folder](const std::string& input) {
+                (void)read_placement(folder->write("placement.csv", input), 5);
+              },
+          .cost = 4};
+}
+
+}  // namespace reckon::fuzz
