@@ -65,6 +65,27 @@ double value_at(const GrayVolume& gray, const Vec3& world) {
   return value;
 }
 
+/// The void share summed up along a line through `center` [voxels].
+double void_along_line(const GrayVolume& gray, const GrayLevels& levels, const Vec3& center,
+                       const Vec3& direction) {
+  constexpr double half_length = 3.5;  // [voxels]
+  constexpr double step = 0.25;
+  double sum = 0;
+  for (double t = -half_length; t <= half_length; t += step) {
+    sum += step * (1 - levels.share(value_at(gray, center + t * gray.voxel * direction)));
+  }
+  return sum;
+}
+
+template <class Visit>
+void for_each_in_disk(int radius, Visit&& visit) {
+  for (int u = -radius; u <= radius; ++u) {
+    for (int v = -radius; v <= radius; ++v) {
+      if (u * u + v * v <= radius * radius) visit(u, v);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<NearPair> near_pairs(std::span<const ShapeView> shapes,
@@ -111,27 +132,32 @@ std::vector<NearPair> near_pairs(std::span<const ShapeView> shapes,
 }
 
 double gray_gap(const GrayVolume& gray, const GrayLevels& levels, const NearPair& pair) {
-  constexpr double half_length = 3.5;  // [voxels]
-  constexpr double step = 0.25;
-  constexpr int half_search = 4;  // in half voxels
+  constexpr int search_reach = 10;  // in half voxels
+  constexpr int mean_reach = 2;
   const Vec3 helper = std::abs(pair.normal_world.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 along_u = normalized(cross(helper, pair.normal_world));
   const Vec3 along_v = cross(pair.normal_world, along_u);
+  const auto void_along = [&](int u, int v) {
+    const Vec3 center = pair.point_world + 0.5 * gray.voxel * (u * along_u + v * along_v);
+    return void_along_line(gray, levels, center, pair.normal_world);
+  };
+  int best_u = 0;
+  int best_v = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (int u = -half_search; u <= half_search; ++u) {
-    for (int v = -half_search; v <= half_search; ++v) {
-      const Vec3 center =
-          pair.point_world +
-          0.5 * gray.voxel * (static_cast<double>(u) * along_u + static_cast<double>(v) * along_v);
-      double sum = 0;
-      for (double t = -half_length; t <= half_length; t += step) {
-        sum +=
-            step * (1 - levels.share(value_at(gray, center + t * gray.voxel * pair.normal_world)));
-      }
-      least = std::min(least, sum);
-    }
-  }
-  return least * gray.voxel;
+  for_each_in_disk(search_reach, [&](int u, int v) {
+    const double sum = void_along(u, v);
+    if (!(sum < least)) return;
+    least = sum;
+    best_u = u;
+    best_v = v;
+  });
+  double mean = 0;
+  int lines = 0;
+  for_each_in_disk(mean_reach, [&](int u, int v) {
+    mean += void_along(best_u + u, best_v + v);
+    ++lines;
+  });
+  return mean / lines * gray.voxel;
 }
 
 }  // namespace reckon

@@ -29,11 +29,13 @@ struct NearPair {
 
 /// The gap between two grains as the gray values tell it [m]: the void share summed up along the
 /// line through the pair's nearest point, along its normal, from inside one grain to inside the
-/// other; the least such sum over lines within two voxels of that one.
+/// other. Of the lines within five voxels of that one the line with the least sum is taken, and the
+/// mean over those within a voxel of it, which evens out noise.
 ///
 /// Blur spreads a thin gap over voxels whose gray stays above any threshold, but not its sum, which
 /// is the gap's width averaged over the blur across the line: for a gap g between surfaces of
-/// radius R it is g + s^2 / R with s the total deviation of the blur [voxels].
+/// radius R it is g + s^2 / R with s the total deviation of the blur, the voxel's and that mean's
+/// included [voxels].
 [[nodiscard]] double gray_gap(const GrayVolume& gray, const GrayLevels& levels,
                               const NearPair& pair);
 

@@ -41,7 +41,7 @@ struct ScannedContact {
 struct AvatarSettings {
   ShapeResolution resolution;
   double smoothing{0.5};     ///< see extract_grain [voxels]
-  double contact_gap{0.25};  ///< largest gray gap of grains that count as touching [voxels]
+  double contact_gap{0.22};  ///< largest gray gap of grains that count as touching [voxels]
 };
 
 /// Grains of a scan as avatars: shape n belongs to grain n.

@@ -35,7 +35,7 @@ inline TestAssembly bumpy_assembly(int nx, int ny, int nz) {
         GrainState grain;
         grain.id = GrainId{n};
         grain.shape = ShapeId{n % 2};
-        grain.position = 0.97e-3 * Vec3{i + 0.1 * random.uniform(), j + 0.1 * random.uniform(),
+        grain.position = 1.01e-3 * Vec3{i + 0.1 * random.uniform(), j + 0.1 * random.uniform(),
                                         k + 0.1 * random.uniform()};
         grain.orientation =
             normalized(Quaternion{standard_normal(random), standard_normal(random),
