@@ -5,7 +5,7 @@
 # The one list of Debian packages that the project needs, and the installation of those that are
 # missing. docs/dependencies.md says why each is here.
 #
-#   tools/install_dependencies.sh [--list] GROUP...     groups: build, test
+#   tools/install_dependencies.sh [--list] GROUP...     groups: build, test, ct
 set -euo pipefail
 
 packages_of() {
@@ -17,8 +17,10 @@ packages_of() {
     test)  # what ./check needs beyond that
       echo libgtest-dev clang clang-format clang-tidy libclang-rt-14-dev libomp-dev \
         python3 git ;;
+    ct)  # the optional component that makes grains from X-ray volumes
+      echo libinsighttoolkit5-dev ;;
     *)
-      echo "install_dependencies.sh: unknown group '$1'; there are: build, test" >&2
+      echo "install_dependencies.sh: unknown group '$1'; there are: build, test, ct" >&2
       return 2 ;;
   esac
 }
@@ -28,7 +30,7 @@ if [[ ${1:-} == --list ]]; then
   list_only=true
   shift
 fi
-[[ $# -gt 0 ]] || { echo "usage: install_dependencies.sh [--list] GROUP...   (build, test)" >&2; exit 2; }
+[[ $# -gt 0 ]] || { echo "usage: install_dependencies.sh [--list] GROUP...   (build, test, ct)" >&2; exit 2; }
 
 wanted=()
 for group in "$@"; do
