@@ -16,6 +16,7 @@
 #include "reckon/avatar/surface_files.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/scan/image_filters.hpp"
 
 namespace reckon::app {
 namespace {
@@ -164,6 +165,39 @@ TEST_F(GrainsCommand, InfoAndExport) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "stl" / "sphere.stl"));
+}
+
+TEST_F(GrainsCommand, ScansThereAndBack) {
+  grains({"solid", "--ellipsoid", "0.6mm,0.5mm,0.4mm", "--voxels-per-diameter", "14", "--nodes",
+          "80", "-o", path("a.h5")});
+  write_file(path("poses.csv"), "0,0,0,0,1,0,0,0\n0,1.3e-3,0,0,0.6,0,0.8,0\n");
+  write_file(path("scene.toml"),
+             "[material]\ndensity = 2650\nfriction = 0.5\n[contact]\nlaw = \"area\"\n"
+             "normal_stiffness = \"1 GN/m^3\"\n[[grains]]\nlibrary = \"a.h5\"\n"
+             "table = { file = \"poses.csv\" }\n[time]\nsteps = 1\n");
+  grains({"scan", path("scene.toml"), "--voxel", "60um", "--format", "npy", "--out", path("scan")});
+  for (const char* name : {"volume.npy", "labels.h5", "library.h5", "placement.csv"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "scan" / name)) << name;
+  }
+  expect_holds(grains({"statistics", path("scan/library.h5"), "-o", path("a.csv")}), "roundness");
+  expect_holds(read_file(path("a.csv")), "ellipsoid,");
+  const std::vector<std::string> back{
+      "from-scan", path("scan/volume.npy"), "--voxel", "60um", "--out", path("back"), "--truth",
+      path("scan")};
+  if (!has_ct_component()) {
+    expect_holds(fault(back), "libinsighttoolkit5-dev");
+    return;
+  }
+  expect_holds(grains(back), "2 of 2 grains found once");
+  for (const char* name : {"library.h5", "placement.csv", "quality.csv", "contacts.csv",
+                           "relax.toml", "report.json", "slice-grains.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "back" / name)) << name;
+  }
+  EXPECT_EQ(load_library(path("back/library.h5")).size(), 2U);
+  expect_holds(fault({"from-scan", path("scan/volume.npy"), "--voxel", "60um", "--out",
+                      path("none"), "--threshold", "1e9"}),
+               "no grains were found");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none" / "library.h5"));
 }
 
 TEST_F(GrainsCommand, FaultsSayWhatToDo) {
