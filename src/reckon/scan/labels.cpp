@@ -56,6 +56,7 @@ std::uint32_t join_wide_necks(LabelVolume& labels, const GrayVolume& depth, doub
     pass = std::max(pass, std::min(depth.values[v], depth.values[w]));
   });
   std::vector<Pass> passes;
+  passes.reserve(deepest.size());
   for (const auto& [pair, pass] : deepest) {
     passes.push_back({pair.first, pair.second, pass,
                       static_cast<double>(pass) / std::min(peak[pair.first], peak[pair.second])});

@@ -68,10 +68,11 @@ double value_at(const GrayVolume& gray, const Vec3& world) {
 /// The void share summed up along a line through `center` [voxels].
 double void_along_line(const GrayVolume& gray, const GrayLevels& levels, const Vec3& center,
                        const Vec3& direction) {
-  constexpr double half_length = 3.5;  // [voxels]
-  constexpr double step = 0.25;
+  constexpr int half_steps = 14;
+  constexpr double step = 0.25;  // [voxels]
   double sum = 0;
-  for (double t = -half_length; t <= half_length; t += step) {
+  for (int n = -half_steps; n <= half_steps; ++n) {
+    const double t = step * n;
     sum += step * (1 - levels.share(value_at(gray, center + t * gray.voxel * direction)));
   }
   return sum;
