@@ -53,7 +53,7 @@ struct TextHeader {
                                            const std::string& place);
 
 /// Throws Error unless all pages of a TIFF file are there and of one size.
-void check_tiff_pages(const std::filesystem::path& file);
+void check_tiff_pages(const std::filesystem::path& path);
 
 // Those of the component `ct`.
 
