@@ -18,8 +18,9 @@ class App;
 namespace reckon::app {
 
 // The subcommands of `reckon grains`, one source file each.
-void add_grains_sources(CLI::App& grains);  ///< generate, solid, spheres, from-mesh, from-harmonics, ...
-void add_grains_legacy(CLI::App& grains);   ///< from-legacy, to-legacy
+void add_grains_sources(
+    CLI::App& grains);  ///< generate, solid, spheres, from-mesh, from-harmonics, ...
+void add_grains_legacy(CLI::App& grains);  ///< from-legacy, to-legacy
 void add_grains_info(CLI::App& grains);
 void add_grains_export(CLI::App& grains);
 void add_grains_scan(CLI::App& grains);

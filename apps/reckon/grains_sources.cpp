@@ -317,7 +317,8 @@ void add_spheres(CLI::App& grains) {
   CLI::App* command = grains.add_subcommand(
       "spheres", "The equivalent spheres of a library: one per grain, of the same name and volume");
   command->footer(
-      "Scenes that take one library or the other place the same masses of grains; their difference\n"
+      "Scenes that take one library or the other place the same masses of grains; their "
+      "difference\n"
       "is what shape does.\n\nExample:\n  reckon grains spheres sand.h5 -o spheres.h5");
   auto library = std::make_shared<std::string>();
   command->add_option("library", *library, "Shape library (.h5) or legacy folder")->required();

@@ -33,9 +33,9 @@ StressInvariants invariants(const Mat3& stress) {
   result.principal = symmetric_eigen(symmetric_part(stress)).values;
   const auto& [least, middle, most] = result.principal;
   result.mean = trace(stress) / 3;
-  result.deviator = std::sqrt(0.5 * ((most - middle) * (most - middle) +
-                                     (middle - least) * (middle - least) +
-                                     (most - least) * (most - least)));
+  result.deviator =
+      std::sqrt(0.5 * ((most - middle) * (most - middle) + (middle - least) * (middle - least) +
+                       (most - least) * (most - least)));
   if (most + least > 0) result.friction_angle = degrees_of_sine((most - least) / (most + least));
   return result;
 }

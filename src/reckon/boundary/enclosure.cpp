@@ -159,7 +159,8 @@ std::optional<Enclosure> convex_body(std::span<const Plane> planes, std::size_t 
       continue;
     }
     body.areas[*face.wall] = area;
-    body.volume += area / 3 * std::abs(dot(normalized(area_vector(face)), face.corners[0] - centre));
+    body.volume +=
+        area / 3 * std::abs(dot(normalized(area_vector(face)), face.corners[0] - centre));
     for (const Vec3& p : face.corners) {
       for (int axis = 0; axis < 3; ++axis) {
         body.low[axis] = std::min(body.low[axis], p[axis]);
@@ -227,8 +228,8 @@ std::optional<Enclosure> enclosure_of(std::span<const Wall> walls,
     return right_cylinder(planes, *cylinder, std::get<CylinderSurface>(walls[*cylinder].surface),
                           poses[*cylinder].displacement, walls.size());
   }
-  const bool all_across_axes =
-      std::all_of(planes.begin(), planes.end(), [](const Plane& p) { return axis_of(p).has_value(); });
+  const bool all_across_axes = std::all_of(planes.begin(), planes.end(),
+                                           [](const Plane& p) { return axis_of(p).has_value(); });
   return all_across_axes ? right_box(planes, walls.size()) : convex_body(planes, walls.size());
 }
 

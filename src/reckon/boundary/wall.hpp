@@ -84,7 +84,7 @@ struct DrivenWall {
 };
 /// All walls at one step. `driven` is one per wall, or empty.
 [[nodiscard]] std::vector<WallPose> poses_at(std::span<const Wall> walls,
-                                             std::span<const DrivenWall> driven,
-                                             std::uint64_t step, double time_step);
+                                             std::span<const DrivenWall> driven, std::uint64_t step,
+                                             double time_step);
 
 }  // namespace reckon

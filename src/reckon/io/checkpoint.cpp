@@ -338,8 +338,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
       walls.begin_row(row);
       walk_wall(walls, state.driven_walls[row]);
     }
-    state.stage_starts =
-        file.read<std::uint64_t>("/stage/start", {rows_of(file, "/stage/start")});
+    state.stage_starts = file.read<std::uint64_t>("/stage/start", {rows_of(file, "/stage/start")});
     if (!std::is_sorted(state.stage_starts.begin(), state.stage_starts.end())) {
       refuse(file, "a stage starts before the one before it");
     }

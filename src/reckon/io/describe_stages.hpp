@@ -19,28 +19,28 @@ void describe(Visitor& v, ControlConfig& control) {
                      "(`\"box.z+\"`), two that face each other and move alike (`\"box.z\"`), or "
                      "all six as three such pairs (`\"box\"`)."},
          control.wall);
-  v.one_of(Presence::exactly_one, {"stress", "strain_rate", "speed"},
-           static_cast<std::size_t>(control.target), [&](std::size_t which) {
-             control.target = static_cast<WallTarget>(which);
-             if (which == 0) {
-               v.number({.name = "stress",
-                         .unit = "Pa",
-                         .range = at_least(0),
-                         .meaning = "A servo holds the mean normal stress on the planes at this."},
-                        control.value);
-             } else if (which == 1) {
-               v.number({.name = "strain_rate",
-                         .unit = "1/s",
-                         .meaning = "The space between the walls shortens along the planes' normal "
-                                    "at this rate, -d(ln L)/dt."},
-                        control.value);
-             } else {
-               v.number({.name = "speed",
-                         .unit = "m/s",
-                         .meaning = "Each plane moves inward at this speed."},
-                        control.value);
-             }
-           });
+  v.one_of(
+      Presence::exactly_one, {"stress", "strain_rate", "speed"},
+      static_cast<std::size_t>(control.target), [&](std::size_t which) {
+        control.target = static_cast<WallTarget>(which);
+        if (which == 0) {
+          v.number({.name = "stress",
+                    .unit = "Pa",
+                    .range = at_least(0),
+                    .meaning = "A servo holds the mean normal stress on the planes at this."},
+                   control.value);
+        } else if (which == 1) {
+          v.number({.name = "strain_rate",
+                    .unit = "1/s",
+                    .meaning = "The space between the walls shortens along the planes' normal "
+                               "at this rate, -d(ln L)/dt."},
+                   control.value);
+        } else {
+          v.number(
+              {.name = "speed", .unit = "m/s", .meaning = "Each plane moves inward at this speed."},
+              control.value);
+        }
+      });
   if (v.visits(control.target == WallTarget::stress)) {
     v.number({.name = "gain",
               .unit = "1",

@@ -96,12 +96,12 @@ void add_sample_columns(std::vector<HistoryColumn>& columns) {
   add_tensor(columns, "wall_stress", "_Pa", "the same from forces on the walls alone");
   columns.push_back({"mean_stress_Pa", "p, a third of the trace of the stress"});
   columns.push_back({"deviator_Pa", "q = sqrt(3 J2) of the stress"});
-  columns.push_back({"friction_angle_deg",
-                     "mobilised: sine is (sigma_1 - sigma_3) / (sigma_1 + sigma_3)"});
-  columns.push_back({"inertial_number",
-                     "largest rate of strain times mean diameter times sqrt(density / p)"});
-  columns.push_back({"mechanical_coordination",
-                     "contacts per grain over grains with at least two of them"});
+  columns.push_back(
+      {"friction_angle_deg", "mobilised: sine is (sigma_1 - sigma_3) / (sigma_1 + sigma_3)"});
+  columns.push_back(
+      {"inertial_number", "largest rate of strain times mean diameter times sqrt(density / p)"});
+  columns.push_back(
+      {"mechanical_coordination", "contacts per grain over grains with at least two of them"});
   columns.push_back({"rattlers", "grains with fewer than two contacts"});
   add_tensor(columns, "contact_tensor", "", "mean of n (x) n over contact normals between grains");
   add_tensor(columns, "branch_tensor", "",
@@ -112,9 +112,9 @@ void add_sample_columns(std::vector<HistoryColumn>& columns) {
 }
 
 std::string sample_cells(const SampleMeasurement& s) {
-  std::string cells = fmt::format(",{},{},{},{},{},{},{},{},{}", s.volume, s.size.x, s.size.y,
-                                  s.size.z, s.void_ratio, s.strain.x, s.strain.y, s.strain.z,
-                                  s.volumetric_strain);
+  std::string cells =
+      fmt::format(",{},{},{},{},{},{},{},{},{}", s.volume, s.size.x, s.size.y, s.size.z,
+                  s.void_ratio, s.strain.x, s.strain.y, s.strain.z, s.volumetric_strain);
   cells += tensor_cells(s.stress) + tensor_cells(s.wall_stress);
   cells += fmt::format(",{},{},{},{},{},{}", s.invariants.mean, s.invariants.deviator,
                        s.invariants.friction_angle, s.inertial_number, s.mechanical_coordination,

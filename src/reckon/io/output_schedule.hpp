@@ -17,8 +17,8 @@ namespace reckon {
   return interval > 0 && step % interval == 0;
 }
 
-/// At which steps a run writes, given where its stages have begun so far. A stage's last step belongs
-/// to it, is the first of the next, and always has a row and fields.
+/// At which steps a run writes, given where its stages have begun so far. A stage's last step
+/// belongs to it, is the first of the next, and always has a row and fields.
 class OutputSchedule {
  public:
   OutputSchedule(const SceneConfig& scene, std::span<const std::uint64_t> stage_starts)

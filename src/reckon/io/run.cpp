@@ -12,8 +12,8 @@
 #include <string>
 #include <utility>
 
-#include "reckon/core/build_info.hpp"
 #include "reckon/analysis/sample.hpp"
+#include "reckon/core/build_info.hpp"
 #include "reckon/io/output_schedule.hpp"
 #include "reckon/io/run_files.hpp"
 #include "reckon/io/scene_sharing.hpp"
@@ -75,7 +75,7 @@ class Session {
         if (hooks_.progressed) hooks_.progressed(progress_);
       }
       if (end != RunEnd::nothing_to_do) {
-        end = interrupted               ? RunEnd::interrupted
+        end = interrupted              ? RunEnd::interrupted
               : rests && !has_stages() ? RunEnd::at_rest
                                        : RunEnd::complete;
       }

@@ -35,7 +35,8 @@ RunFiles::RunFiles(const SceneReading& reading, const LoadedScene& scene,
   write_file(folder_.scene(), reading.text);
   write_file(folder_.resolved(), resolved_scene(scene.config, prepared, steps));
   outputs_.emplace(folder_, scene, prepared,
-                   OutputSchedule{scene.config, checkpoint_.state.stage_starts}, resumed_ ? std::optional{first_step} : std::nullopt);
+                   OutputSchedule{scene.config, checkpoint_.state.stage_starts},
+                   resumed_ ? std::optional{first_step} : std::nullopt);
   record_.started = utc_now();
   record_.scene = scene.config.title;
   record_.grains = scene.grains.size();

@@ -34,7 +34,7 @@ class RunFiles {
 
   void note(const std::string& text);       ///< in the log and to the caller
   void log(const std::string& text) const;  ///< in the log alone
-  void begin(HistoryRow at_start);  ///< the first row of a fresh run
+  void begin(HistoryRow at_start);          ///< the first row of a fresh run
   /// Fills in the energy at the start.
   void append_history(HistoryRow row);
   /// Fields and checkpoints are written while the caller goes on; what goes wrong then is thrown by

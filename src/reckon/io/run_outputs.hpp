@@ -11,8 +11,8 @@
 #include "reckon/core/vtk_xml.hpp"
 #include "reckon/io/fields.hpp"
 #include "reckon/io/history.hpp"
-#include "reckon/io/run_folder.hpp"
 #include "reckon/io/output_schedule.hpp"
+#include "reckon/io/run_folder.hpp"
 #include "reckon/simulation/setup.hpp"
 
 namespace reckon {

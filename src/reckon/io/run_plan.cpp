@@ -208,9 +208,8 @@ std::string plan_text(const RunPlan& plan) {
     line(fmt::format("stage {}", n + 1), lines.front());
     for (std::size_t more = 1; more < lines.size(); ++more) line("", lines[more]);
   }
-  line("steps",
-       fmt::format("{}{}, {:.6g} s simulated", plan.stages.empty() ? "" : "at most ",
-                   human_count(plan.steps), plan.simulated_time));
+  line("steps", fmt::format("{}{}, {:.6g} s simulated", plan.stages.empty() ? "" : "at most ",
+                            human_count(plan.steps), plan.simulated_time));
   line("memory", fmt::format("about {} besides the program itself ({} of shapes)",
                              human_bytes(plan.memory_shapes + plan.memory_grains),
                              human_bytes(plan.memory_shapes)));

@@ -33,7 +33,7 @@ struct RunPlan {
   double step_fraction{0};
   std::string limiting_shape;  ///< of the grain that limits the time step
   std::vector<StagePlan> stages;
-  std::uint64_t steps{0};  ///< with stages, at most
+  std::uint64_t steps{0};    ///< with stages, at most
   double simulated_time{0};  ///< [s]
 
   std::uint64_t memory_shapes{0};  ///< [bytes]

@@ -94,8 +94,8 @@ std::vector<StageSetup> make_stages(const SceneConfig& scene, std::span<const Wa
 }
 
 std::uint64_t most_steps(const StageConfig& stage, double time_step) {
-  return stage.steps.value_or(static_cast<std::uint64_t>(
-      std::ceil(stage.duration.value_or(0) / time_step * (1 - 1e-12))));
+  return stage.steps.value_or(
+      static_cast<std::uint64_t>(std::ceil(stage.duration.value_or(0) / time_step * (1 - 1e-12))));
 }
 
 }  // namespace reckon

@@ -13,8 +13,8 @@
 
 namespace reckon {
 
-/// The planes that a control's `wall` names, grouped as they move together: one plane, two sides of a
-/// box, or all six as three pairs. None when there are no such.
+/// The planes that a control's `wall` names, grouped as they move together: one plane, two sides of
+/// a box, or all six as three pairs. None when there are no such.
 [[nodiscard]] std::vector<std::vector<WallId>> planes_named(std::span<const Wall> walls,
                                                             std::string_view name);
 
@@ -24,7 +24,8 @@ namespace reckon {
 
 /// The rate of strain that gives this inertial number at a mean stress [Pa]: I / (d sqrt(rho / p))
 /// [1/s].
-[[nodiscard]] double rate_at(double inertial_number, double stress, double diameter, double density);
+[[nodiscard]] double rate_at(double inertial_number, double stress, double diameter,
+                             double density);
 
 /// What a servo may use unless the scene says otherwise.
 constexpr double servo_inertial_number = 0.01;

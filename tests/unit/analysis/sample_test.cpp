@@ -39,8 +39,8 @@ SampleMeasurement look_at(const SimulationSetup& setup, const SimulationState& s
   return measure_sample(simulation);
 }
 
-/// Eight equal spheres at the corners of a cube, all contacts with the same overlap. Their nodes make
-/// the forces a little uneven.
+/// Eight equal spheres at the corners of a cube, all contacts with the same overlap. Their nodes
+/// make the forces a little uneven.
 TEST(Sample, SimpleCubicPackingIsInClosedForm) {
   const auto shapes = testing::library_of({testing::sphere(1.0, 4000)});
   const double overlap = 0.05;
@@ -48,7 +48,9 @@ TEST(Sample, SimpleCubicPackingIsInClosedForm) {
   for (std::uint32_t n = 0; n < 8; ++n) {
     GrainState grain;
     grain.id = GrainId{n};
-    const auto place = [&](std::uint32_t bit) { return (n & bit ? 1.0 : -1.0) * (1 - overlap / 2); };
+    const auto place = [&](std::uint32_t bit) {
+      return (n & bit ? 1.0 : -1.0) * (1 - overlap / 2);
+    };
     grain.position = {place(1), place(2), place(4)};
     state.grains.push_back(grain);
   }

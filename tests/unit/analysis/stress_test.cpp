@@ -42,8 +42,8 @@ TEST(ShearCurve, FindsPeakAndDilatancyOfAKnownCurve) {
   for (int n = 0; n <= 400; ++n) {
     const double strain = 0.2 * n / 400;
     const double off = (strain - 0.05) / 0.05;
-    curve.push_back({strain, strain < 0.1 ? -0.6 * strain : -0.06,
-                     strain < 0.1 ? 40 - 10 * off * off : 30});
+    curve.push_back(
+        {strain, strain < 0.1 ? -0.6 * strain : -0.06, strain < 0.1 ? 40 - 10 * off * off : 30});
   }
   const auto found = summarize(curve);
   ASSERT_TRUE(found.has_value());
