@@ -79,7 +79,7 @@ std::string numpy_name_of(VoxelType type) {
 }
 
 std::optional<VoxelType> voxel_type_named(std::string_view name) {
-  const auto found = std::find_if(types.begin(), types.end(), [&](const TypeName& entry) {
+  const auto* const found = std::find_if(types.begin(), types.end(), [&](const TypeName& entry) {
     return entry.name == name || entry.numpy == name;
   });
   if (found == types.end()) return std::nullopt;
