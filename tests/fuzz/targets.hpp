@@ -23,8 +23,7 @@ namespace reckon::fuzz {
 [[nodiscard]] Target placement_target();
 [[nodiscard]] Target volume_npy_target();
 [[nodiscard]] Target volume_raw_target();
-[[nodiscard]] Target volume_mha_target();
-[[nodiscard]] Target volume_nrrd_target();
-[[nodiscard]] Target volume_tif_target();
+/// None without the component `ct`.
+[[nodiscard]] std::vector<Target> image_targets();
 
 }  // namespace reckon::fuzz

@@ -18,13 +18,11 @@ GrayVolume small_volume() {
   return volume;
 }
 
-/// Readers of the component `ct`: without it nothing is read, which is as good an answer as any.
 Target image_target(const std::string& ending) {
   const auto folder = std::make_shared<const ScratchFolder>();
   return {.name = "volume_" + ending,
           .valid_inputs =
               [folder, ending] {
-                if (!has_ct_component()) return std::vector<std::string>{""};
                 std::vector<std::string> inputs;
                 for (const VoxelType type : {VoxelType::uint8, VoxelType::float32}) {
                   const auto file = folder->path() / ("valid." + ending);
@@ -35,7 +33,6 @@ Target image_target(const std::string& ending) {
               },
           .read =
               [folder, ending](const std::string& input) {
-                if (!has_ct_component()) return;
                 (void)read_volume({folder->write("volume." + ending, input), 2e-6, {}});
               },
           .cost = 10};
@@ -68,9 +65,10 @@ Target volume_raw_target() {
               }};
 }
 
-Target volume_mha_target() { return image_target("mha"); }
-Target volume_nrrd_target() { return image_target("nrrd"); }
-Target volume_tif_target() { return image_target("tif"); }
+std::vector<Target> image_targets() {
+  if (!has_ct_component()) return {};
+  return {image_target("mha"), image_target("nrrd"), image_target("tif")};
+}
 
 Target placement_target() {
   const auto folder = std::make_shared<const ScratchFolder>();
