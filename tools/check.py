@@ -88,8 +88,9 @@ def scripts(log):
 
 def lone_headers(log):
     """Headers without a source of their own compile by themselves; the others come first in it."""
-    compiler = ["mpicxx", "-std=c++20", "-fopenmp", "-Isrc", "-fsyntax-only", "-x", "c++", "/dev/null",
-                "-include"]
+    toolkit = [f"-isystem{folder}" for folder in pathlib.Path("/usr/include").glob("ITK-*")]
+    compiler = ["mpicxx", "-std=c++20", "-fopenmp", "-Isrc", *toolkit, "-fsyntax-only", "-x", "c++",
+                "/dev/null", "-include"]
     return run(log, *([*compiler, header] for header in tracked("src/*.hpp")
                       if not (ROOT / header).with_suffix(".cpp").exists()))
 
