@@ -4,6 +4,7 @@
 // The near engine and the plain one end in the same bits, whatever the grains do.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include "reckon/core/random.hpp"
 #include "reckon/parallel/threads.hpp"
@@ -76,6 +77,8 @@ Scene sheared_box(const AnyContactLaw& law) {
   scene.setup.walls = box_walls({0, 0, 0}, {edge, edge, edge}, law);
   scene.setup.walls[1].motion = WallMotion{.velocity = {-0.4, 0, 0}};
   scene.setup.walls[5].motion = WallMotion{.velocity = {0, 0, 0.4}};
+  scene.setup.walls[3].law = AreaLaw{1e7, 1e7, area_dashpot_factor(0.3)};
+  for (double friction = 0.1; Wall & wall : scene.setup.walls) wall.friction = friction += 0.05;
   scene.setup.damping = 2;
   RandomStream random{3, RandomPurpose::other, 1};
   const auto jitter = [&] { return random.uniform(-0.1, 0.1); };
@@ -151,6 +154,8 @@ ContactCounters expect_equal_engines(const Scene& scene, int steps) {
     if (n % 100 == 0 || n < 5) {
       expect_same_state(near.state(), plain.state());
       EXPECT_EQ(near.measure(), plain.measure());
+      EXPECT_TRUE(
+          std::ranges::equal(near.wall_contacts().forces(), plain.wall_contacts().forces()));
       if (::testing::Test::HasFatalFailure()) return {};
     }
   }

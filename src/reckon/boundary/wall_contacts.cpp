@@ -15,6 +15,11 @@
 namespace reckon {
 namespace {
 
+/// A wall moves alike everywhere, so its centre may lie anywhere.
+RigidMotion motion_of(const WallPose& wall, const GrainFrame& grain) {
+  return {grain.position, wall.velocity, {}};
+}
+
 WallForce force_of(const DirectedForce& directed, const Mat3& first_moment,
                    const Vec3& wall_velocity, double time_step) {
   return {directed.force,
@@ -79,37 +84,83 @@ void WallContacts::follow_walls() {
   }
 }
 
-double WallContacts::evaluate_candidate(std::size_t c, const GrainFrame& grain, double time_step,
-                                        std::optional<double> odometer, Scratch& scratch) {
-  const std::uint32_t w = candidates_[c].wall.get();
+PairContext WallContacts::context_of(std::size_t c, const GrainFrame& grain,
+                                     double time_step) const {
+  return {.effective_mass = grain.mass,
+          .friction = walls_[candidates_[c].wall.get()].friction,
+          .time_step = time_step};
+}
+
+/// As in GrainContacts: both spring buffers must be empty before a candidate may sleep.
+void WallContacts::settle(std::size_t c, double wake, bool had_springs, ContactCounters& counters) {
+  wake_[c] = had_springs ? wake_always : wake;
+  ++counters.awake;
+  counters.touching_nodes += forces_[c].touching;
+  if (forces_[c].touching > 0) ++counters.touching_pairs;
+}
+
+/// Tests every node and answers one after the other: the oracle.
+void WallContacts::evaluate_plainly(std::size_t c, const GrainFrame& grain, double time_step,
+                                    Scratch& scratch) {
+  const Wall& wall = walls_[candidates_[c].wall.get()];
+  const WallPose& pose = poses_[candidates_[c].wall.get()];
   const auto old_springs = store_.read(springs_of_candidate_[c]);
-  auto& touches = scratch.touches;
-  touches.clear();
-  double wake = wake_always;
-  if (odometer) {
-    wake = near_[c].find_touches(grain, walls_[w], poses_[w], *odometer, touches, scratch.counters);
-  } else {
-    find_wall_touches(grain, walls_[w], poses_[w], touches);
-  }
+  scratch.touches.clear();
+  find_wall_touches(grain, wall, pose, scratch.touches);
+  const PairContext context = context_of(c, grain, time_step);
   new_springs_of_candidate_[c] = store_.append([&](std::vector<NodeSpring>& arena) {
-    forces_[c] = {};
-    if (touches.empty() && old_springs.empty()) return;
-    const PairContext context{
-        .effective_mass = grain.mass, .friction = walls_[w].friction, .time_step = time_step};
-    const RigidMotion grain_motion{grain.position, grain.velocity, grain.angular_velocity_world};
-    const RigidMotion wall_motion{grain.position, poses_[w].velocity, {}};
     std::visit(
         [&](const auto& law) {
           Mat3 first_moment;
           const DirectedForce directed =
-              respond(law, context, grain.position, grain_motion, wall_motion, touches, old_springs,
-                      *grain.shape, false, 1, arena, &first_moment);
-          forces_[c] = force_of(directed, first_moment, poses_[w].velocity, time_step);
+              respond(law, context, grain.position, motion_of(grain), motion_of(pose, grain),
+                      scratch.touches, old_springs, *grain.shape, false, 1, arena, &first_moment);
+          forces_[c] = force_of(directed, first_moment, pose.velocity, time_step);
         },
-        walls_[w].law);
+        wall.law);
   });
-  // As in GrainContacts: both spring buffers must be empty before a candidate may sleep.
-  return old_springs.empty() ? wake : wake_always;
+  settle(c, wake_always, !old_springs.empty(), scratch.counters);
+}
+
+/// Finds the touching nodes of a candidate by its near list and lets them wait for their law.
+void WallContacts::find_nodes(std::size_t c, const GrainFrame& grain, double time_step,
+                              double odometer, Scratch& scratch) {
+  const std::uint32_t w = candidates_[c].wall.get();
+  const auto old_springs = store_.read(springs_of_candidate_[c]);
+  scratch.touches.clear();
+  const double wake = near_[c].find_touches(grain, walls_[w], poses_[w], odometer, scratch.touches,
+                                            scratch.counters);
+  const std::size_t member =
+      scratch.batches[w].add(context_of(c, grain, time_step), grain.position, motion_of(grain),
+                             motion_of(poses_[w], grain), scratch.touches, old_springs);
+  scratch.waiting.push_back({c, member, wake});
+}
+
+/// The forces of the candidates that wait.
+void WallContacts::answer_waiting(std::span<const GrainFrame> frames, double time_step,
+                                  Scratch& scratch) {
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    scratch.batches[w].respond(walls_[w].law, walls_[w].friction, time_step, lanes_);
+  }
+  for (const Waiting& waiting : scratch.waiting) {
+    const std::size_t c = waiting.candidate;
+    const std::uint32_t w = candidates_[c].wall.get();
+    const auto old_springs = store_.read(springs_of_candidate_[c]);
+    new_springs_of_candidate_[c] = store_.append([&](std::vector<NodeSpring>& arena) {
+      std::visit(
+          [&](const auto& law) {
+            Mat3 first_moment;
+            const DirectedForce directed = scratch.batches[w].sum(
+                waiting.member, law, old_springs, *frames[candidates_[c].slot].shape, false, 1,
+                arena, &first_moment);
+            forces_[c] = force_of(directed, first_moment, poses_[w].velocity, time_step);
+          },
+          walls_[w].law);
+    });
+    settle(c, waiting.wake, !old_springs.empty(), scratch.counters);
+  }
+  scratch.waiting.clear();
+  for (TouchBatch& batch : scratch.batches) batch.clear();
 }
 
 void WallContacts::evaluate(std::span<const GrainFrame> frames, const MotionMeter& meter,
@@ -122,12 +173,9 @@ void WallContacts::evaluate(std::span<const GrainFrame> frames, const MotionMete
   }
   store_.begin_writing(thread_count());
   scratch_.resize(static_cast<std::size_t>(thread_count()));
-  const auto evaluate_one = [&](std::size_t c, std::optional<double> odometer) {
-    Scratch& mine = scratch_[static_cast<std::size_t>(thread_index())];
-    wake_[c] = evaluate_candidate(c, frames[candidates_[c].slot], time_step, odometer, mine);
-    ++mine.counters.awake;
-    mine.counters.touching_nodes += forces_[c].touching;
-    if (forces_[c].touching > 0) ++mine.counters.touching_pairs;
+  for (Scratch& scratch : scratch_) scratch.batches.resize(walls_.size());
+  const auto scratch = [&]() -> Scratch& {
+    return scratch_[static_cast<std::size_t>(thread_index())];
   };
   if (use_near_lists) {
     visit_awake(
@@ -139,13 +187,18 @@ void WallContacts::evaluate(std::span<const GrainFrame> frames, const MotionMete
           near_[c].prefetch();
           prefetch_frame(frames[candidates_[c].slot]);
         },
-        evaluate_one, [] {});
+        [&](std::size_t c, double odometer) {
+          find_nodes(c, frames[candidates_[c].slot], time_step, odometer, scratch());
+        },
+        [&] { answer_waiting(frames, time_step, scratch()); });
   } else {
-    parallel_for(candidates_.size(), 32, [&](std::size_t c) { evaluate_one(c, {}); });
+    parallel_for(candidates_.size(), 32, [&](std::size_t c) {
+      evaluate_plainly(c, frames[candidates_[c].slot], time_step, scratch());
+    });
   }
   ++counters_.evaluations;
   counters_.pairs += candidates_.size();
-  for (Scratch& scratch : scratch_) counters_ += std::exchange(scratch.counters, {});
+  for (Scratch& mine : scratch_) counters_ += std::exchange(mine.counters, {});
 }
 
 void WallContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const {

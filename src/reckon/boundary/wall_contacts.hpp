@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "reckon/contact/history.hpp"
 #include "reckon/contact/motion_meter.hpp"
 #include "reckon/contact/touch.hpp"
+#include "reckon/contact/touch_batch.hpp"
 #include "reckon/grains/grain_frame.hpp"
 #include "reckon/neighbor/motion_budget.hpp"
 
@@ -31,6 +31,8 @@ struct WallForce {
   /// Sum of the nodes' forces times their levers about the centre of mass, f (x) l [N m].
   Mat3 first_moment{Vec3{}, Vec3{}, Vec3{}};
   std::uint32_t touching{0};
+
+  friend bool operator==(const WallForce&, const WallForce&) = default;
 };
 
 /// Springs of one grain on one wall, as a checkpoint or a message carries them.
@@ -46,8 +48,12 @@ struct WallSprings {
 /// the grains, a grain's walls in the order of the scene. Candidates sleep as pairs of grains do.
 class WallContacts {
  public:
-  explicit WallContacts(std::vector<Wall> walls, ContactEngine engine = ContactEngine::near)
-      : walls_{std::move(walls)}, engine_{engine}, travelled_(walls_.size(), 0.0) {}
+  explicit WallContacts(std::vector<Wall> walls, ContactEngine engine = ContactEngine::near,
+                        SimdLevel simd = SimdLevel::automatic)
+      : walls_{std::move(walls)},
+        engine_{engine},
+        lanes_{law_lanes(simd)},
+        travelled_(walls_.size(), 0.0) {}
 
   /// Places the walls for one step; `driven` as for poses_at. To be called before rebuild and
   /// evaluate.
@@ -84,16 +90,30 @@ class WallContacts {
   void adopt(std::span<const WallSprings> springs);
 
  private:
+  /// A candidate whose nodes are in the batch of its wall.
+  struct Waiting {
+    std::size_t candidate;
+    std::size_t member;
+    double wake;
+  };
   struct alignas(64) Scratch {
     std::vector<Touch> touches;
+    std::vector<TouchBatch> batches;  // by wall: each has its own law
+    std::vector<Waiting> waiting;
     ContactCounters counters;
   };
   void follow_walls();
-  double evaluate_candidate(std::size_t c, const GrainFrame& grain, double time_step,
-                            std::optional<double> odometer, Scratch& scratch);
+  [[nodiscard]] PairContext context_of(std::size_t c, const GrainFrame& grain,
+                                       double time_step) const;
+  void evaluate_plainly(std::size_t c, const GrainFrame& grain, double time_step, Scratch& scratch);
+  void find_nodes(std::size_t c, const GrainFrame& grain, double time_step, double odometer,
+                  Scratch& scratch);
+  void answer_waiting(std::span<const GrainFrame> frames, double time_step, Scratch& scratch);
+  void settle(std::size_t c, double wake, bool had_springs, ContactCounters& counters);
 
   std::vector<Wall> walls_;
   ContactEngine engine_;
+  LawLanes lanes_;
   std::vector<WallPose> poses_;
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> first_of_slot_;

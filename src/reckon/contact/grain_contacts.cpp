@@ -15,10 +15,6 @@
 namespace reckon {
 namespace {
 
-RigidMotion motion_of(const GrainFrame& grain) {
-  return {grain.position, grain.velocity, grain.angular_velocity_world};
-}
-
 void add_directed(PairForce& pair, const DirectedForce& directed, bool master_is_b) {
   pair.force_on_a += master_is_b ? -directed.force : directed.force;
   pair.moment_a += master_is_b ? directed.moment_slave : directed.moment_master;

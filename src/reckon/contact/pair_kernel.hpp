@@ -40,6 +40,10 @@ struct RigidMotion {
          cross(slave.angular_velocity_world, lever_slave);
 }
 
+[[nodiscard]] inline RigidMotion motion_of(const GrainFrame& grain) {
+  return {grain.position, grain.velocity, grain.angular_velocity_world};
+}
+
 /// Fills in what all touching nodes of a pair share.
 inline void count_touches(PairContext& context, std::span<const Touch> touches) {
   context.touching = static_cast<std::uint32_t>(touches.size());

@@ -74,7 +74,8 @@ class TouchBatch {
   [[nodiscard]] DirectedForce sum(std::size_t member, const Law& law,
                                   std::span<const NodeSpring> old_springs,
                                   const ShapeView& master_shape, bool master_is_b, double weight,
-                                  std::vector<NodeSpring>& new_springs) const;
+                                  std::vector<NodeSpring>& new_springs,
+                                  Mat3* first_moment = nullptr) const;
 
  private:
   struct Member {
@@ -91,9 +92,10 @@ template <ContactLaw Law>
 DirectedForce TouchBatch::sum(std::size_t member, const Law& law,
                               std::span<const NodeSpring> old_springs,
                               const ShapeView& master_shape, bool master_is_b, double weight,
-                              std::vector<NodeSpring>& new_springs) const {
+                              std::vector<NodeSpring>& new_springs, Mat3* first_moment) const {
   const Member& m = members_[member];
   DirectedForce sum;
+  if (first_moment != nullptr) *first_moment = {Vec3{}, Vec3{}, Vec3{}};
   auto old = old_springs.begin();
   const auto let_go = [&](const NodeSpring& spring) {
     sum.friction +=
@@ -109,6 +111,9 @@ DirectedForce TouchBatch::sum(std::size_t member, const Law& law,
     sum.force += block.force[lane];
     sum.moment_master += block.moment_master[lane];
     sum.moment_slave -= block.moment_slave[lane];
+    if (first_moment != nullptr) {
+      *first_moment += outer(block.force[lane], block.lever_master[lane]);
+    }
     sum.deepest = std::max(sum.deepest, -block.phi[lane]);
     sum.elastic += block.elastic[lane];
     sum.friction += block.friction[lane];
@@ -117,7 +122,11 @@ DirectedForce TouchBatch::sum(std::size_t member, const Law& law,
     ++sum.touching;
   }
   while (old != old_springs.end()) let_go(*old++);
-  scale(sum, weight * law.pair_scale(m.context));
+  const double factor = weight * law.pair_scale(m.context);
+  scale(sum, factor);
+  sum.stiffness = weight * law.pair_stiffness(m.context);
+  sum.damping = weight * law.pair_damping(m.context);
+  if (first_moment != nullptr) *first_moment = factor * *first_moment;
   return sum;
 }
 

@@ -40,7 +40,7 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
       distribution_{ranks, setup_.decomposition, total_count(ranks, state.grains.size()),
                     total_count(ranks, state.grains.size() + state.departed.size())},
       grain_contacts_{setup_.contact, setup_.engine, setup_.simd},
-      wall_contacts_{setup_.walls, setup_.engine},
+      wall_contacts_{setup_.walls, setup_.engine, setup_.simd},
       step_{root_step(ranks, state.step)},
       budget_{MotionBudget::with(setup_.skin, setup_.time_step)} {
   for (const ShapeView& shape : shapes_) {
