@@ -72,7 +72,7 @@ void restart_with_settings(char** argv) {
     if (std::getenv(name) != nullptr) return;
     changed = setenv(name, value, 1) == 0 || changed;
   };
-  if (std::getenv("OMP_WAIT_POLICY") == nullptr) prefer("GOMP_SPINCOUNT", "20000");
+  if (std::getenv("OMP_WAIT_POLICY") == nullptr) prefer("GOMP_SPINCOUNT", "1000");
   prefer("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1");
   if (changed) execv("/proc/self/exe", argv);  // on failure: go on as we are
 }
