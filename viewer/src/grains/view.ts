@@ -1,0 +1,476 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  CylinderGeometry,
+  DirectionalLight,
+  DoubleSide,
+  FrontSide,
+  HemisphereLight,
+  InstancedBufferAttribute,
+  InstancedMesh,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  PerspectiveCamera,
+  Plane,
+  Quaternion,
+  Raycaster,
+  Scene,
+  SRGBColorSpace,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { Frame } from "../data/frame.ts";
+import type { Run } from "../data/run.ts";
+import type { Rgb } from "../colours.ts";
+import { boundsOf, wallLines } from "./outlines.ts";
+import { pickGrain } from "./pick.ts";
+import { ball, type ShapeSurfaces, type Surface, unpackSurfaces } from "./surfaces.ts";
+
+export type GrainStyle = "solid" | "faint" | "hidden";
+export type Axis = "x" | "y" | "z";
+
+export interface Slice {
+  axis: Axis;
+  /** From 0 to 1 across the box of the grains. */
+  place: number;
+  flipped: boolean;
+}
+
+const slowFrame = 55; // [ms]; slower machines get the coarse surfaces while the view moves
+const settleTime = 250; // [ms] after the last move until the fine ones come back
+
+function geometryOf(surface: Surface): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(surface.position, 3));
+  geometry.setAttribute("normal", new BufferAttribute(surface.normal, 3));
+  geometry.setIndex(new BufferAttribute(surface.index, 1));
+  return geometry;
+}
+
+interface ShapeMesh {
+  mesh: InstancedMesh;
+  fine: BufferGeometry;
+  coarse: BufferGeometry;
+  rows: number[]; // of the frame, by instance
+}
+
+/** The grains, contacts and walls of one frame. Draws only when something has changed. */
+export class GrainView {
+  readonly canvas: HTMLCanvasElement;
+  /** How long the last picture took [ms]; includes waiting for the graphics card. */
+  frameTime = 0;
+  picked: (row: number) => void = () => {};
+
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(28, 1, 0.01, 100);
+  private readonly controls: OrbitControls;
+  private readonly light = new DirectionalLight(0xffffff, 1.9);
+  private readonly grainMaterial = new MeshLambertMaterial();
+  private readonly plane = new Plane();
+  private readonly walls = new LineSegments(
+    new BufferGeometry(),
+    new LineBasicMaterial({ color: 0x5c6670 }),
+  );
+  private chains: InstancedMesh | null = null;
+  private readonly chainMaterial = new MeshLambertMaterial({ color: 0xffffff });
+  private readonly highlight = new Mesh(
+    new BufferGeometry(),
+    new MeshBasicMaterial({ color: 0xd81b60 }),
+  );
+  private meshes: ShapeMesh[] = [];
+  private surfaces: (ShapeSurfaces | null)[] = [];
+  private readonly ball: ShapeSurfaces = { fine: ball(3), coarse: ball(1) };
+  private shapesKnown = false;
+  private frame: Frame | null = null;
+  private run: Run | null = null;
+  private style: GrainStyle = "solid";
+  private slice: Slice | null = null;
+  private selected = -1;
+  private pending = false;
+  private coarse = false;
+  private settle = 0;
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.canvas = canvas;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setClearColor(0xf3f2ee);
+    this.renderer.localClippingEnabled = true;
+    this.renderer.outputColorSpace = SRGBColorSpace;
+    this.camera.up.set(0, 0, 1);
+    this.scene.add(new HemisphereLight(0xffffff, 0x9a958a, 1.7), this.camera, this.walls);
+    this.camera.add(this.light);
+    this.light.position.set(-0.6, 0.9, 1);
+    this.highlight.visible = false;
+    this.scene.add(this.highlight);
+    this.paintCutsFlat();
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.addEventListener("change", () => this.moved());
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    this.listenForPicks();
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+
+  setRun(run: Run): void {
+    this.run = run;
+    for (const { mesh, fine, coarse } of this.meshes) {
+      this.scene.remove(mesh);
+      mesh.dispose();
+      fine.dispose();
+      coarse.dispose();
+    }
+    this.meshes = [];
+    this.shapesKnown = run.text.shapes_missing === "";
+    this.surfaces = this.shapesKnown ? unpackSurfaces(run.head) : [];
+    this.selected = -1;
+  }
+
+  setFrame(frame: Frame): void {
+    this.frame = frame;
+    this.placeGrains(frame);
+    this.placeWalls(frame);
+    this.applySlice();
+    this.placeHighlight();
+    this.draw();
+  }
+
+  /** A colour for every row of the frame. */
+  setColours(colour: (row: number) => Rgb): void {
+    const mixed = new Color();
+    for (const { mesh, rows } of this.meshes) {
+      mesh.instanceColor ??= new InstancedBufferAttribute(new Float32Array(3 * mesh.instanceMatrix.count), 3);
+      rows.forEach((row, n) => mesh.setColorAt(n, mixed.setRGB(...colour(row), SRGBColorSpace)));
+      mesh.instanceColor.needsUpdate = true;
+    }
+    this.draw();
+  }
+
+  /** Contacts as bars between centres, as thick as `thickness` says [m]; null: none. */
+  setChains(thickness: ((contact: number) => number) | null, colour?: (contact: number) => Rgb): void {
+    if (this.chains) {
+      this.scene.remove(this.chains);
+      this.chains.geometry.dispose();
+      this.chains.dispose();
+      this.chains = null;
+    }
+    const frame = this.frame;
+    if (frame && thickness && frame.contacts > 0) {
+      const bar = new CylinderGeometry(1, 1, 1, 7, 1, true);
+      bar.rotateX(Math.PI / 2); // along z
+      const mesh = new InstancedMesh(bar, this.chainMaterial, frame.contacts);
+      mesh.frustumCulled = false;
+      const matrix = new Matrix4();
+      const turn = new Quaternion();
+      const along = new Vector3(0, 0, 1);
+      const branch = new Vector3();
+      const middle = new Vector3();
+      const mixed = new Color();
+      for (let c = 0; c < frame.contacts; ++c) {
+        const row = frame.ends[2 * c];
+        branch.fromArray(frame.branch, 3 * c);
+        middle.fromArray(frame.position, 3 * row).addScaledVector(branch, 0.5);
+        const length = branch.length();
+        turn.setFromUnitVectors(along, branch.divideScalar(length || 1));
+        const radius = thickness(c);
+        matrix.compose(middle, turn, branch.set(radius, radius, length));
+        mesh.setMatrixAt(c, matrix);
+        if (colour) mesh.setColorAt(c, mixed.setRGB(...colour(c), SRGBColorSpace));
+      }
+      this.chains = mesh;
+      this.scene.add(mesh);
+    }
+    this.draw();
+  }
+
+  setStyle(style: GrainStyle): void {
+    this.style = style;
+    this.grainMaterial.transparent = style === "faint";
+    this.grainMaterial.opacity = style === "faint" ? 0.14 : 1;
+    this.grainMaterial.depthWrite = style === "solid";
+    this.grainMaterial.needsUpdate = true;
+    for (const { mesh } of this.meshes) mesh.visible = style !== "hidden";
+    this.draw();
+  }
+
+  setSlice(slice: Slice | null): void {
+    this.slice = slice;
+    this.applySlice();
+    this.draw();
+  }
+
+  select(row: number): void {
+    this.selected = row;
+    this.placeHighlight();
+    this.draw();
+  }
+
+  /** Looks at the whole frame, obliquely or along an axis. */
+  lookAt(direction: Axis | "oblique"): void {
+    if (!this.frame) return;
+    const { low, high } = boundsOf(this.frame);
+    const center = new Vector3(...low).add(new Vector3(...high)).multiplyScalar(0.5);
+    const size = new Vector3(...high).sub(new Vector3(...low)).length();
+    const from = {
+      oblique: new Vector3(0.62, -1, 0.42),
+      x: new Vector3(1, 0, 0),
+      y: new Vector3(0, -1, 0),
+      z: new Vector3(0, -1e-4, 1),
+    }[direction].normalize();
+    const narrow = Math.min(1, this.camera.aspect);
+    const distance = (0.54 * size) / Math.tan((this.camera.fov * Math.PI) / 360) / narrow;
+    this.camera.position.copy(center).addScaledVector(from, distance);
+    this.camera.near = distance / 200;
+    this.camera.far = distance * 8;
+    this.camera.updateProjectionMatrix();
+    this.controls.target.copy(center);
+    this.controls.minDistance = distance / 60;
+    this.controls.maxDistance = distance * 4;
+    this.controls.update();
+    this.draw();
+  }
+
+  draw(): void {
+    if (this.pending) return;
+    this.pending = true;
+    requestAnimationFrame(() => {
+      this.pending = false;
+      this.drawNow();
+    });
+  }
+
+  private drawNow(): void {
+    if (this.canvas.clientWidth === 0) return;
+    const start = performance.now();
+    this.renderer.render(this.scene, this.camera);
+    this.renderer.getContext().finish();
+    this.frameTime = performance.now() - start;
+    this.canvas.dataset.drawn = String(Number(this.canvas.dataset.drawn ?? 0) + 1);
+    this.canvas.dataset.frameTime = this.frameTime.toFixed(1);
+  }
+
+  /** While the view moves, slow machines draw coarse surfaces; fine ones come when it rests. */
+  private moved(): void {
+    if (!this.coarse && this.frameTime > slowFrame) this.setCoarse(true);
+    window.clearTimeout(this.settle);
+    this.settle = window.setTimeout(() => this.setCoarse(false), settleTime);
+    this.draw();
+  }
+  private setCoarse(coarse: boolean): void {
+    if (coarse === this.coarse) return;
+    this.coarse = coarse;
+    for (const shape of this.meshes) shape.mesh.geometry = coarse ? shape.coarse : shape.fine;
+    this.draw();
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** Where the slicing plane opens a grain, its inside is painted in one shade, like a cut face. */
+  private paintCutsFlat(): void {
+    this.grainMaterial.onBeforeCompile = (shader) => {
+      shader.fragmentShader = shader.fragmentShader.replace(
+        "#include <opaque_fragment>",
+        "if (!gl_FrontFacing) outgoingLight = 0.58 * diffuseColor.rgb;\n#include <opaque_fragment>",
+      );
+    };
+  }
+
+  private shapeOf(shape: number): ShapeSurfaces {
+    return this.surfaces[shape] ?? this.ball;
+  }
+  private scaleOf(frame: Frame, row: number): number {
+    return this.surfaces[frame.shape[row]] ? 1 : frame.equivalentRadius[row];
+  }
+
+  private placeGrains(frame: Frame): void {
+    const rowsOfShape = new Map<number, number[]>();
+    for (let row = 0; row < frame.grains; ++row) {
+      const shape = this.surfaces[frame.shape[row]] ? frame.shape[row] : -1;
+      const rows = rowsOfShape.get(shape);
+      if (rows) rows.push(row);
+      else rowsOfShape.set(shape, [row]);
+    }
+    const reusable = new Map(this.meshes.map((shape) => [shape.mesh.userData.shape as number, shape]));
+    this.meshes = [];
+    const matrix = new Matrix4();
+    const place = new Vector3();
+    const turn = new Quaternion();
+    const size = new Vector3();
+    for (const [shape, rows] of rowsOfShape) {
+      let entry = reusable.get(shape);
+      if (!entry || entry.mesh.instanceMatrix.count < rows.length) {
+        const { fine, coarse } = this.shapeOf(shape);
+        const fineGeometry = entry?.fine ?? geometryOf(fine);
+        const coarseGeometry = entry?.coarse ?? geometryOf(coarse);
+        const mesh = new InstancedMesh(fineGeometry, this.grainMaterial, rows.length);
+        mesh.frustumCulled = false;
+        mesh.userData.shape = shape;
+        mesh.visible = this.style !== "hidden";
+        this.scene.add(mesh);
+        if (entry) {
+          this.scene.remove(entry.mesh);
+          entry.mesh.dispose();
+        }
+        entry = { mesh, fine: fineGeometry, coarse: coarseGeometry, rows };
+      }
+      reusable.delete(shape);
+      entry.rows = rows;
+      entry.mesh.count = rows.length;
+      rows.forEach((row, n) => {
+        const [w, x, y, z] = frame.orientation.subarray(4 * row, 4 * row + 4);
+        place.fromArray(frame.position, 3 * row);
+        turn.set(x, y, z, w);
+        const scale = this.scaleOf(frame, row);
+        matrix.compose(place, turn, size.set(scale, scale, scale));
+        entry.mesh.setMatrixAt(n, matrix);
+      });
+      entry.mesh.instanceMatrix.needsUpdate = true;
+      this.meshes.push(entry);
+    }
+    for (const { mesh } of reusable.values()) {
+      this.scene.remove(mesh);
+      mesh.dispose();
+    }
+  }
+
+  private placeWalls(frame: Frame): void {
+    const lines = wallLines(this.run?.text.walls ?? [], frame);
+    this.walls.geometry.dispose();
+    this.walls.geometry = new BufferGeometry();
+    this.walls.geometry.setAttribute(
+      "position",
+      new BufferAttribute(Float32Array.from(lines.flat()), 3),
+    );
+  }
+
+  private placeHighlight(): void {
+    const frame = this.frame;
+    this.highlight.visible = frame !== null && this.selected >= 0 && this.selected < frame.grains;
+    if (!frame || !this.highlight.visible) return;
+    const row = this.selected;
+    this.highlight.geometry.dispose();
+    this.highlight.geometry = geometryOf(this.shapeOf(frame.shape[row]).fine);
+    const [w, x, y, z] = frame.orientation.subarray(4 * row, 4 * row + 4);
+    this.highlight.position.fromArray(frame.position, 3 * row);
+    this.highlight.quaternion.set(x, y, z, w);
+    this.highlight.scale.setScalar(1.015 * this.scaleOf(frame, row));
+  }
+
+  private applySlice(): void {
+    const planes: Plane[] = [];
+    if (this.slice && this.frame) {
+      const { low, high } = boundsOf(this.frame);
+      const axis = "xyz".indexOf(this.slice.axis);
+      const at = low[axis] + this.slice.place * (high[axis] - low[axis]);
+      const normal = new Vector3().setComponent(axis, this.slice.flipped ? 1 : -1);
+      this.plane.set(normal, this.slice.flipped ? -at : at);
+      planes.push(this.plane);
+    }
+    this.grainMaterial.clippingPlanes = planes;
+    this.chainMaterial.clippingPlanes = planes;
+    (this.highlight.material as MeshBasicMaterial).clippingPlanes = planes;
+    const side = planes.length > 0 ? DoubleSide : FrontSide;
+    if (this.grainMaterial.side !== side) {
+      this.grainMaterial.side = side;
+      this.grainMaterial.needsUpdate = true;
+    }
+  }
+
+  /** The row of the grain that shows at a place of the canvas, from (-1, -1) to (1, 1); or -1. */
+  private grainAt(place: Vector2): number {
+    const frame = this.frame;
+    if (!frame || this.style === "hidden") return -1;
+    const caster = new Raycaster();
+    caster.setFromCamera(place, this.camera);
+    const { origin, direction } = caster.ray;
+    const point = new Vector3();
+    return pickGrain(
+      frame,
+      (row) => ({ surface: this.shapeOf(frame.shape[row]).fine, scale: this.scaleOf(frame, row) }),
+      { origin: origin.toArray(), direction: direction.toArray() },
+      (at) => !this.slice || this.plane.distanceToPoint(point.set(...at)) >= 0,
+    );
+  }
+
+  private listenForPicks(): void {
+    let down: PointerEvent | null = null;
+    this.canvas.addEventListener("pointerdown", (event) => {
+      down = event;
+    });
+    this.canvas.addEventListener("pointerup", (event) => {
+      const still = down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < 5;
+      down = null;
+      if (!still || event.button !== 0) return;
+      const box = this.canvas.getBoundingClientRect();
+      this.picked(
+        this.grainAt(
+          new Vector2(
+            (2 * (event.clientX - box.left)) / box.width - 1,
+            1 - (2 * (event.clientY - box.top)) / box.height,
+          ),
+        ),
+      );
+    });
+  }
+
+  /** Arrows turn, plus and minus come closer or go back, Enter picks the grain in the middle. */
+  private key(event: KeyboardEvent): void {
+    const turn = Math.PI / 36;
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const around = new Vector3(0, 0, 1);
+    const sideways = new Vector3().crossVectors(around, offset).normalize();
+    switch (event.key) {
+      case "ArrowLeft":
+        offset.applyAxisAngle(around, -turn);
+        break;
+      case "ArrowRight":
+        offset.applyAxisAngle(around, turn);
+        break;
+      case "ArrowUp":
+        offset.applyAxisAngle(sideways, -turn);
+        break;
+      case "ArrowDown":
+        offset.applyAxisAngle(sideways, turn);
+        break;
+      case "+":
+      case "=":
+        offset.multiplyScalar(0.9);
+        break;
+      case "-":
+        offset.multiplyScalar(1 / 0.9);
+        break;
+      case "Enter":
+        this.picked(this.grainAt(new Vector2(0, 0)));
+        return;
+      case "Escape":
+        this.picked(-1);
+        return;
+      default:
+        return;
+    }
+    event.preventDefault();
+    if (Math.abs(offset.z) < 0.999 * offset.length()) {
+      this.camera.position.copy(this.controls.target).add(offset);
+      this.controls.update();
+    }
+    this.moved();
+  }
+}
