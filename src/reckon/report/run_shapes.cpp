@@ -15,11 +15,11 @@ namespace {
 
 // A graphics card draws some millions of triangles in a frame; a page of tens of megabytes still
 // opens at once.
-constexpr std::size_t triangles_on_screen = 2'500'000;
+constexpr std::size_t triangles_on_screen = 1'500'000;
 constexpr std::size_t triangles_in_page = 1'200'000;
 constexpr std::size_t most_triangles = 2400;
 constexpr std::size_t fewest_triangles = 160;
-constexpr std::size_t coarse_triangles = 100;
+constexpr std::size_t coarse_triangles = 48;
 
 std::size_t triangles_per_grain(std::span<const std::uint64_t> grains) {
   const std::uint64_t total = std::accumulate(grains.begin(), grains.end(), std::uint64_t{0});

@@ -95,14 +95,18 @@ export class Chart {
     const [, xUnit] = this.xParts();
     replace(
       this.values,
-      h("div", { class: "at" }, `${number(rows[0].line.x[rows[0].n], 4)}${xUnit ? ` ${xUnit}` : ""}`),
-      ...rows.map(({ line, n }) =>
-        h(
-          "div",
-          { class: "row" },
-          swatch(line),
-          h("span", {}, line.label),
-          h("b", {}, `${number(line.y[n], 4)}${this.yUnit ? ` ${this.yUnit}` : ""}`),
+      h(
+        "div",
+        { class: "box" },
+        h("div", {}, `${number(rows[0].line.x[rows[0].n], 4)}${xUnit ? ` ${xUnit}` : ""}`),
+        ...rows.map(({ line, n }) =>
+          h(
+            "div",
+            { class: "row" },
+            swatch(line),
+            h("span", {}, line.label),
+            h("b", {}, `${number(line.y[n], 4)}${this.yUnit ? ` ${this.yUnit}` : ""}`),
+          ),
         ),
       ),
       h("i", { class: "cross" }),

@@ -52,10 +52,16 @@ export class History {
     const lines = [this.columns.map((column) => column.name).join(",")];
     const columns = this.columns.map((column) => this.column(column.name));
     for (let row = 0; row < this.rows; ++row) {
-      lines.push(columns.map((column) => (Number.isNaN(column[row]) ? "" : column[row])).join(","));
+      lines.push(columns.map((column) => cell(column[row])).join(","));
     }
     return lines.join("\n") + "\n";
   }
+}
+
+/** String(-0) is "0". */
+function cell(value: number): string {
+  if (Number.isNaN(value)) return "";
+  return Object.is(value, -0) ? "-0" : String(value);
 }
 
 /** The unit at the end of a column's name, e.g. "time_s" -> ["time", "s"]. */

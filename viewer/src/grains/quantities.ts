@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import type { Frame } from "../data/frame.ts";
 
-/** What grains can be coloured by. `start` is the first frame of the page. */
+/** What grains can be coloured by. `start` is the frame that displacements are counted from. */
 export interface Quantity {
   id: string;
   label: string;
+  short: string; // for the list of choices
   unit: string;
   needsContacts?: boolean;
   whole?: boolean; // counts: the legend shows whole numbers
@@ -52,19 +53,22 @@ export function rotation(frame: Frame, start: Frame, row: number): number {
 export const quantities: readonly Quantity[] = [
   {
     id: "displacement",
-    label: "Displacement since the first frame",
+    label: "Displacement",
+    short: "displacement",
     unit: "m",
     of: (frame, start) => perGrain(frame, (row) => displacement(frame, start, row)),
   },
   {
     id: "rotation",
-    label: "Rotation since the first frame",
+    label: "Rotation",
+    short: "rotation",
     unit: "°",
     of: (frame, start) => perGrain(frame, (row) => rotation(frame, start, row)),
   },
   {
     id: "stress",
     label: "Mean stress in the grain",
+    short: "mean stress",
     unit: "Pa",
     needsContacts: true,
     of: (frame) => frame.stress().mean,
@@ -72,6 +76,7 @@ export const quantities: readonly Quantity[] = [
   {
     id: "deviator",
     label: "Deviator of the grain's stress",
+    short: "deviatoric stress",
     unit: "Pa",
     needsContacts: true,
     of: (frame) => frame.stress().deviator,
@@ -79,6 +84,7 @@ export const quantities: readonly Quantity[] = [
   {
     id: "coordination",
     label: "Touching partners, walls included",
+    short: "coordination",
     unit: "",
     whole: true,
     of: (frame) => Float32Array.from(frame.touching),
@@ -86,18 +92,21 @@ export const quantities: readonly Quantity[] = [
   {
     id: "size",
     label: "Diameter of the sphere of equal volume",
+    short: "size",
     unit: "m",
     of: (frame) => frame.equivalentRadius.map((radius) => 2 * radius),
   },
   {
     id: "speed",
     label: "Speed",
+    short: "speed",
     unit: "m/s",
     of: (frame) => perGrain(frame, (row) => length(frame.velocity, row)),
   },
   {
     id: "spin",
     label: "Angular speed",
+    short: "angular speed",
     unit: "rad/s",
     of: (frame) => perGrain(frame, (row) => length(frame.spin, row)),
   },

@@ -3,7 +3,7 @@
 import { colourMap, gradient } from "../colours.ts";
 import type { Frame } from "../data/frame.ts";
 import type { Run } from "../data/run.ts";
-import { chooser, h, replace } from "../dom.ts";
+import { chooser, fillChoices, h, replace } from "../dom.ts";
 import { number, quantity, scaled, whole } from "../format.ts";
 import { colourRange, displacement, quantities, type Quantity, rotation } from "./quantities.ts";
 import { type Axis, GrainView, type GrainStyle } from "./view.ts";
@@ -42,6 +42,9 @@ export class GrainSection {
   private readonly slider = h("input", { type: "range", min: 0, step: 1, "aria-label": "Saved time" });
   private readonly time = h("output", { class: "time" });
   private readonly play = h("button", { type: "button", class: "play", "aria-label": "Play" }, "▶");
+  private readonly since = h("select", {
+    onchange: () => void this.countFrom(Number(this.since.value)),
+  });
   private readonly picked = h("div", { class: "picked", "aria-live": "polite" });
   private readonly sliceSlider = h("input", {
     type: "range",
@@ -69,10 +72,14 @@ export class GrainSection {
       h(
         "div",
         { class: "stage" },
-        h("div", { class: "screen" }, this.canvas, this.legend),
+        h(
+          "div",
+          {},
+          h("div", { class: "screen" }, this.canvas, this.legend),
+          h("div", { class: "timeline" }, this.play, this.slider, this.time),
+        ),
         h("div", { class: "side" }, this.controls(), this.picked),
       ),
-      h("div", { class: "timeline" }, this.play, this.slider, this.time),
       this.note,
     );
     this.showPicked();
@@ -90,7 +97,8 @@ export class GrainSection {
     this.run = runs[this.runs.findIndex((run) => run.number === this.run.number)] ?? runs[0];
     const frames = this.run.text.frames;
     if (frames.length === 0) return;
-    this.start = await this.run.frame(0);
+    this.fillOrigins(this.since.value);
+    this.start = await this.run.frame(Number(this.since.value));
     this.view.setRun(this.run);
     this.slider.max = String(frames.length - 1);
     this.fillNote();
@@ -105,10 +113,32 @@ export class GrainSection {
     this.element.classList.toggle("empty", frames.length === 0);
     if (frames.length === 0) return;
     this.view.setRun(run);
-    this.start = await run.frame(0);
+    this.fillOrigins(null);
+    this.start = await run.frame(Number(this.since.value));
     this.slider.max = String(frames.length - 1);
     await this.show(frames.length - 1);
     this.view.lookAt("oblique");
+    this.showPicked();
+  }
+
+  /** Displacements count from the start, or from the saved time at which a stage began. */
+  private fillOrigins(chosen: string | null): void {
+    const { history, text } = this.run;
+    const origins = [{ value: "0", label: "the start" }];
+    for (let stage = 2; stage <= text.stages.length; ++stage) {
+      const [first, end] = history.stageRows(stage);
+      if (!history.has("stage") || first >= end || first === 0) continue;
+      const begin = history.column("step")[first - 1]; // the last row of the stage before
+      const frame = nearestTo(text.frames, begin);
+      if (frame > 0) origins.push({ value: String(frame), label: `stage ${stage}, ${text.stages[stage - 1]}` });
+    }
+    const known = chosen !== null && origins.some(({ value }) => value === chosen);
+    fillChoices(this.since, origins, known ? chosen : origins[origins.length - 1].value);
+  }
+
+  private async countFrom(n: number): Promise<void> {
+    this.start = await this.run.frame(n);
+    this.colour();
     this.showPicked();
   }
 
@@ -229,7 +259,7 @@ export class GrainSection {
         ),
       chooser(
         "Colour by",
-        quantities.map(({ id, label }) => ({ value: id, label })),
+        quantities.map(({ id, short }) => ({ value: id, label: short })),
         this.quantity.id,
         (value) => {
           this.quantity = quantities.find(({ id }) => id === value) ?? quantities[0];
@@ -248,6 +278,7 @@ export class GrainSection {
           this.showChains();
         },
       ),
+      h("label", { class: "field" }, h("span", {}, "Counted from"), this.since),
       h("label", { class: "field" }, h("span", {}, "Hold the range"), hold),
       style,
       h("label", { class: "field" }, h("span", {}, "Contact forces"), chains),
@@ -385,4 +416,13 @@ export class GrainSection {
       h("dl", {}, ...rows.flatMap(([name, value]) => [h("dt", {}, name), h("dd", {}, value)])),
     );
   }
+}
+
+/** The place of the number nearest to `wanted` in an ascending list. */
+function nearestTo(numbers: readonly number[], wanted: number): number {
+  let best = 0;
+  numbers.forEach((value, n) => {
+    if (Math.abs(value - wanted) < Math.abs(numbers[best] - wanted)) best = n;
+  });
+  return best;
 }

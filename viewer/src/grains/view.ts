@@ -15,7 +15,6 @@ import {
   LineSegments,
   Matrix4,
   Mesh,
-  MeshBasicMaterial,
   MeshLambertMaterial,
   PerspectiveCamera,
   Plane,
@@ -42,6 +41,7 @@ export interface Slice {
   axis: Axis;
   /** From 0 to 1 across the box of the grains. */
   place: number;
+  /** What is cut away is in front for the oblique look; flipped, what is behind. */
   flipped: boolean;
 }
 
@@ -66,7 +66,7 @@ interface ShapeMesh {
 /** The grains, contacts and walls of one frame. Draws only when something has changed. */
 export class GrainView {
   readonly canvas: HTMLCanvasElement;
-  /** How long the last picture took [ms]; includes waiting for the graphics card. */
+  /** How long the last picture took, until the graphics card had finished it [ms]. */
   frameTime = 0;
   picked: (row: number) => void = () => {};
 
@@ -85,7 +85,7 @@ export class GrainView {
   private readonly chainMaterial = new MeshLambertMaterial({ color: 0xffffff });
   private readonly highlight = new Mesh(
     new BufferGeometry(),
-    new MeshBasicMaterial({ color: 0xd81b60 }),
+    new MeshLambertMaterial({ color: 0xd81b60, emissive: 0x5a0b28, side: DoubleSide }),
   );
   private meshes: ShapeMesh[] = [];
   private surfaces: (ShapeSurfaces | null)[] = [];
@@ -97,6 +97,9 @@ export class GrainView {
   private slice: Slice | null = null;
   private selected = -1;
   private pending = false;
+  private busy = false; // the graphics card is at work
+  private outdated = false; // and what it draws has changed meanwhile
+  private held = false; // the pointer is down
   private coarse = false;
   private settle = 0;
 
@@ -117,6 +120,12 @@ export class GrainView {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener("change", () => this.moved());
+    this.controls.addEventListener("start", () => {
+      this.held = true;
+    });
+    this.controls.addEventListener("end", () => {
+      this.held = false;
+    });
     canvas.addEventListener("keydown", (event) => this.key(event));
     this.listenForPicks();
     new ResizeObserver(() => this.resize()).observe(canvas);
@@ -201,6 +210,7 @@ export class GrainView {
     this.grainMaterial.depthWrite = style === "solid";
     this.grainMaterial.needsUpdate = true;
     for (const { mesh } of this.meshes) mesh.visible = style !== "hidden";
+    this.chooseSurfaces();
     this.draw();
   }
 
@@ -229,7 +239,7 @@ export class GrainView {
       z: new Vector3(0, -1e-4, 1),
     }[direction].normalize();
     const narrow = Math.min(1, this.camera.aspect);
-    const distance = (0.54 * size) / Math.tan((this.camera.fov * Math.PI) / 360) / narrow;
+    const distance = (0.47 * size) / Math.tan((this.camera.fov * Math.PI) / 360) / narrow;
     this.camera.position.copy(center).addScaledVector(from, distance);
     this.camera.near = distance / 200;
     this.camera.far = distance * 8;
@@ -250,28 +260,57 @@ export class GrainView {
     });
   }
 
+  /** Draws, unless the graphics card is still at the last picture; then as soon as it is done. */
   private drawNow(): void {
     if (this.canvas.clientWidth === 0) return;
+    if (this.busy) {
+      this.outdated = true;
+      return;
+    }
+    this.outdated = false;
+    this.busy = true;
     const start = performance.now();
     this.renderer.render(this.scene, this.camera);
-    this.renderer.getContext().finish();
-    this.frameTime = performance.now() - start;
-    this.canvas.dataset.drawn = String(Number(this.canvas.dataset.drawn ?? 0) + 1);
-    this.canvas.dataset.frameTime = this.frameTime.toFixed(1);
+    const context = this.renderer.getContext() as WebGL2RenderingContext;
+    const fence = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    context.flush();
+    const look = () => {
+      const done = !fence || context.getSyncParameter(fence, context.SYNC_STATUS) === context.SIGNALED;
+      if (!done && !context.isContextLost()) {
+        window.setTimeout(look, 2);
+        return;
+      }
+      context.deleteSync(fence);
+      this.busy = false;
+      this.frameTime = performance.now() - start;
+      this.canvas.dataset.frameTime = this.frameTime.toFixed(1);
+      this.canvas.dataset.drawn = String(Number(this.canvas.dataset.drawn ?? 0) + 1);
+      if (this.outdated) this.draw();
+    };
+    look();
   }
 
   /** While the view moves, slow machines draw coarse surfaces; fine ones come when it rests. */
   private moved(): void {
     if (!this.coarse && this.frameTime > slowFrame) this.setCoarse(true);
     window.clearTimeout(this.settle);
-    this.settle = window.setTimeout(() => this.setCoarse(false), settleTime);
+    this.settle = window.setTimeout(() => this.rest(), settleTime);
     this.draw();
+  }
+  private rest(): void {
+    if (this.held) this.settle = window.setTimeout(() => this.rest(), settleTime);
+    else this.setCoarse(false);
   }
   private setCoarse(coarse: boolean): void {
     if (coarse === this.coarse) return;
     this.coarse = coarse;
-    for (const shape of this.meshes) shape.mesh.geometry = coarse ? shape.coarse : shape.fine;
+    this.chooseSurfaces();
     this.draw();
+  }
+  /** Grains that are seen through need no details, and many layers of them cost much. */
+  private chooseSurfaces(): void {
+    const coarse = this.coarse || this.style === "faint";
+    for (const shape of this.meshes) shape.mesh.geometry = coarse ? shape.coarse : shape.fine;
   }
 
   private resize(): void {
@@ -345,6 +384,7 @@ export class GrainView {
       entry.mesh.instanceMatrix.needsUpdate = true;
       this.meshes.push(entry);
     }
+    this.chooseSurfaces();
     for (const { mesh } of reusable.values()) {
       this.scene.remove(mesh);
       mesh.dispose();
@@ -380,13 +420,13 @@ export class GrainView {
       const { low, high } = boundsOf(this.frame);
       const axis = "xyz".indexOf(this.slice.axis);
       const at = low[axis] + this.slice.place * (high[axis] - low[axis]);
-      const normal = new Vector3().setComponent(axis, this.slice.flipped ? 1 : -1);
-      this.plane.set(normal, this.slice.flipped ? -at : at);
+      const side = (this.slice.axis === "y") === this.slice.flipped ? -1 : 1;
+      this.plane.set(new Vector3().setComponent(axis, side), -side * at);
       planes.push(this.plane);
     }
     this.grainMaterial.clippingPlanes = planes;
     this.chainMaterial.clippingPlanes = planes;
-    (this.highlight.material as MeshBasicMaterial).clippingPlanes = planes;
+    (this.highlight.material as MeshLambertMaterial).clippingPlanes = planes;
     const side = planes.length > 0 ? DoubleSide : FrontSide;
     if (this.grainMaterial.side !== side) {
       this.grainMaterial.side = side;

@@ -27,7 +27,7 @@ const rows: Row[] = [
   { label: "Simulated", value: (run) => (run.record.time_s ? quantity(run.record.time_s, "s") : "") },
   { label: "Time step", value: (run) => (run.record.time_step_s ? quantity(run.record.time_step_s, "s") : "") },
   {
-    label: "Wall time of the latest session",
+    label: "Wall time, last session",
     value: (run) => (run.record.session ? duration(Number(run.record.session.wall_s)) : ""),
   },
   { label: "Void ratio", value: last("void_ratio", "") },
@@ -45,7 +45,7 @@ const rows: Row[] = [
         ),
       );
       const error = Math.abs(history.last("balance_error_J"));
-      return work > 0 ? `${number((100 * error) / work, 2)} % of the largest term` : "";
+      return work > 0 ? `${number((100 * error) / work, 2)} % of the largest` : "";
     },
   },
 ];
@@ -95,7 +95,10 @@ export function summary(runs: readonly Run[]): HTMLElement {
         ),
       ),
     ),
-    ...runs.map((run) => findings(run)),
+    ...runs.map((run) => {
+      const found = findings(run);
+      return found && h("div", {}, h("h3", {}, run.text.name), found);
+    }),
   );
 }
 
@@ -103,5 +106,5 @@ function findings(run: Run): HTMLElement | null {
   const { text } = run;
   if (run.record.message) return h("pre", { class: "failure" }, run.record.message);
   if (!text.findings.trim()) return null;
-  return h("pre", { class: "findings" }, text.findings.replace(/\s+$/, ""));
+  return h("pre", { class: "findings" }, text.findings.replace(/\s+$/, "").replaceAll(/^ {2}/gm, ""));
 }
