@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -26,10 +27,10 @@ struct Options {
 void report(const Options& options) {
   const std::vector<RunFolder> runs(options.folders.begin(), options.folders.end());
   std::filesystem::path output = options.output;
-  if (output.empty()) output = runs.front().root() / "report.html";
+  if (output.empty()) output = runs.front().report();
   for (const RunFolder& run : runs) {
     const std::size_t saved = run.field_steps("grains").size();
-    const std::size_t shown = frame_steps(run, options.limits).size();
+    const std::size_t shown = std::min(saved, options.limits.frames);
     if (shown == saved) continue;
     fmt::print("{}: {} of {} saved times (--frames)\n", run.root().string(), shown, saved);
   }

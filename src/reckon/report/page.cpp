@@ -43,9 +43,10 @@ std::string report_page(std::span<const RunFolder> runs, const PageLimits& limit
   const Halves around = halves();
   std::string page{around.before};
   for (std::size_t run = 0; run < runs.size(); ++run) {
-    add_piece(page, fmt::format("{}/head", run), head_piece(runs[run], limits));
-    for (const std::uint64_t step : frame_steps(runs[run], limits)) {
-      add_piece(page, fmt::format("{}/frame/{}", run, step), frame_piece(runs[run], step));
+    RunPieces pieces{runs[run], limits};
+    add_piece(page, fmt::format("{}/head", run), pieces.head());
+    for (const std::uint64_t step : pieces.frame_steps()) {
+      add_piece(page, fmt::format("{}/frame/{}", run, step), pieces.frame(step));
     }
   }
   page += around.after;

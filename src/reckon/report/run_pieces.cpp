@@ -139,7 +139,7 @@ double extent_of(const DisplayMesh& display) {
   return extent;
 }
 
-void add_shapes(const RunShapes& shapes, std::span<const std::uint64_t> grains, Piece& piece) {
+void add_shapes(const RunShapes& shapes, Piece& piece) {
   JsonWriter& json = piece.json();
   json.value("shapes_missing", shapes.missing);
   json.begin_array("measures");
@@ -153,7 +153,7 @@ void add_shapes(const RunShapes& shapes, std::span<const std::uint64_t> grains, 
     const double extent = std::max(extent_of(shape.fine), extent_of(shape.coarse));
     json.begin_object();
     json.value("name", shape.name);
-    json.value("grains", s < grains.size() ? grains[s] : 0);
+    json.value("grains", s < shapes.grains.size() ? shapes.grains[s] : 0);
     json.value("volume", shape.volume);
     json.value("extent", extent);
     json.value("vertices", shape.fine.mesh.vertices.size());
@@ -196,15 +196,18 @@ std::vector<std::uint64_t> spread_steps(const std::vector<std::uint64_t>& steps,
   return chosen;
 }
 
-std::vector<std::uint64_t> frame_steps(const RunFolder& folder, const PageLimits& limits) {
-  return spread_steps(folder.field_steps("grains"), limits.frames);
+RunPieces::RunPieces(RunFolder folder, PageLimits limits)
+    : folder_{std::move(folder)}, limits_{limits} {}
+
+std::vector<std::uint64_t> RunPieces::frame_steps() const {
+  return spread_steps(folder_.field_steps("grains"), limits_.frames);
 }
 
-std::string head_piece(const RunFolder& folder, const PageLimits& limits) {
-  const SceneConfig scene = scene_of(folder);
+std::string RunPieces::head() {
+  const SceneConfig scene = scene_of(folder_);
   Piece piece;
   JsonWriter& json = piece.json();
-  std::filesystem::path root = std::filesystem::absolute(folder.root()).lexically_normal();
+  std::filesystem::path root = std::filesystem::absolute(folder_.root()).lexically_normal();
   if (!root.has_filename()) root = root.parent_path();
   json.value("name", root.filename().string());
   json.value("title", scene.title);
@@ -212,27 +215,28 @@ std::string head_piece(const RunFolder& folder, const PageLimits& limits) {
   json.begin_array("stages");
   for (const StageConfig& stage : scene.stages) json.value(stage.name);
   json.end();
-  json.value("record", text_of(folder.json()));
-  json.value("performance", text_of(folder.performance()));
-  json.value("scene", text_of(folder.scene()));
-  json.value("resolved", text_of(folder.resolved()));
-  json.value("log", text_of(folder.log()));
-  add_history(folder, scene, limits.history_rows, piece);
+  json.value("record", text_of(folder_.json()));
+  json.value("performance", text_of(folder_.performance()));
+  json.value("scene", text_of(folder_.scene()));
+  json.value("resolved", text_of(folder_.resolved()));
+  json.value("log", text_of(folder_.log()));
+  add_history(folder_, scene, limits_.history_rows, piece);
   add_walls(scene, json);
 
-  const std::vector<std::uint64_t> all = folder.field_steps("grains");
+  const std::vector<std::uint64_t> all = folder_.field_steps("grains");
   json.value("saved_frames", all.size());
   json.begin_array("frames");
-  for (const std::uint64_t step : spread_steps(all, limits.frames)) json.value({}, step);
+  for (const std::uint64_t step : spread_steps(all, limits_.frames)) json.value({}, step);
   json.end();
   std::vector<std::uint64_t> grains;
-  if (!all.empty()) grains = grains_by_shape(folder, all.front());
-  add_shapes(read_run_shapes(folder, scene, grains), grains, piece);
+  if (!all.empty()) grains = grains_by_shape(folder_, all.front());
+  if (!shapes_ || shapes_->grains != grains) shapes_ = read_run_shapes(folder_, scene, grains);
+  add_shapes(*shapes_, piece);
   return piece.finish();
 }
 
-std::string frame_piece(const RunFolder& folder, std::uint64_t step) {
-  const SavedFields fields = read_fields(folder, step);
+std::string RunPieces::frame(std::uint64_t step) const {
+  const SavedFields fields = read_fields(folder_, step);
   std::vector<std::uint32_t> id;
   std::vector<std::uint32_t> shape;
   std::vector<std::uint16_t> touching;

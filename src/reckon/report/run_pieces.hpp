@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reckon/io/run_folder.hpp"
+#include "reckon/report/run_shapes.hpp"
 
 namespace reckon {
 
@@ -21,16 +23,27 @@ struct PageLimits {
 [[nodiscard]] std::vector<std::uint64_t> spread_steps(const std::vector<std::uint64_t>& steps,
                                                       std::size_t most);
 
-/// The steps of a run whose fields go into a page.
-[[nodiscard]] std::vector<std::uint64_t> frame_steps(const RunFolder& folder,
-                                                     const PageLimits& limits);
+/// What a page shows of a run, taken from its folder as it is at each call. What is missing is left
+/// out, so a run under way can be shown.
+class RunPieces {
+ public:
+  RunPieces(RunFolder folder, PageLimits limits);
 
-/// All that a page shows of a run but the grains at each saved time, as a Piece: the history, the
-/// shapes with their surfaces, walls, the scene, what ran and how long it took. Throws Error when
-/// the folder holds no run, or what it holds is damaged. What is missing is left out.
-[[nodiscard]] std::string head_piece(const RunFolder& folder, const PageLimits& limits);
+  /// The steps whose fields go into the page.
+  [[nodiscard]] std::vector<std::uint64_t> frame_steps() const;
 
-/// Grains and contacts at one saved step, as a Piece. Throws Error as read_fields does.
-[[nodiscard]] std::string frame_piece(const RunFolder& folder, std::uint64_t step);
+  /// All but the grains at each saved time, as a Piece: the history, the shapes with their
+  /// surfaces, walls, the scene, what ran and how long it took. Shapes are read once, since they
+  /// never change. Throws Error when the folder holds no run, or what it holds is damaged.
+  [[nodiscard]] std::string head();
+
+  /// Grains and contacts at one saved step, as a Piece. Throws Error as read_fields does.
+  [[nodiscard]] std::string frame(std::uint64_t step) const;
+
+ private:
+  RunFolder folder_;
+  PageLimits limits_;
+  std::optional<RunShapes> shapes_;
+};
 
 }  // namespace reckon

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "reckon/avatar/shape_catalog.hpp"
 #include "reckon/avatar/shape_statistics.hpp"
@@ -53,20 +54,21 @@ RunShape make_shape(const Shape& shape, bool with_surface, std::size_t triangles
 }  // namespace
 
 RunShapes read_run_shapes(const RunFolder& folder, const SceneConfig& scene,
-                          std::span<const std::uint64_t> grains) {
-  RunShapes result;
+                          const std::vector<std::uint64_t>& grains) {
+  RunShapes result{.grains = grains};
   const std::size_t triangles = triangles_per_grain(grains);
   try {
     const ShapeCatalog catalog = catalog_of(folder, scene);
     if (catalog.size() < grains.size()) {
-      return {.missing = "a shape library named in scene_resolved.toml has changed"};
+      return {.grains = grains,
+              .missing = "a shape library named in scene_resolved.toml has changed"};
     }
     for (std::uint32_t s = 0; s < catalog.size(); ++s) {
       const bool used = s < grains.size() && grains[s] > 0;
       result.shapes.push_back(make_shape(catalog.read(ShapeId{s}), used, triangles));
     }
   } catch (const Error& error) {
-    return {.missing = error.what()};
+    return {.grains = grains, .missing = error.what()};
   }
   return result;
 }

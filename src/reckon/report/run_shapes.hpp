@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -24,14 +23,15 @@ struct RunShape {
 };
 
 struct RunShapes {
-  std::vector<RunShape> shapes;  ///< by ShapeId; those that no grain has are without surfaces
-  std::string missing;           ///< why there are none; empty where there are
+  std::vector<RunShape> shapes;       ///< by ShapeId; those that no grain has are without surfaces
+  std::vector<std::uint64_t> grains;  ///< how many have each shape
+  std::string missing;                ///< why there are none; empty where there are
 };
 
 /// The shapes of a run from the libraries that `scene` names. `grains` is the number of grains of
 /// each shape: the more grains and shapes, the fewer triangles each. Where a checkpoint shows that
 /// the libraries are not those that ran, or one is gone, there are none, and it says why.
 [[nodiscard]] RunShapes read_run_shapes(const RunFolder& folder, const SceneConfig& scene,
-                                        std::span<const std::uint64_t> grains);
+                                        const std::vector<std::uint64_t>& grains);
 
 }  // namespace reckon

@@ -31,6 +31,7 @@ import type { Frame } from "../data/frame.ts";
 import type { Run } from "../data/run.ts";
 import type { Rgb } from "../colours.ts";
 import { boundsOf, wallLines } from "./outlines.ts";
+import { merged } from "./merged.ts";
 import { pickGrain } from "./pick.ts";
 import { ball, type ShapeSurfaces, type Surface, unpackSurfaces } from "./surfaces.ts";
 
@@ -56,10 +57,18 @@ function geometryOf(surface: Surface): BufferGeometry {
   return geometry;
 }
 
+/** Where the slicing plane opens a grain, its inside is painted in one shade, like a cut face. */
+function paintCutsFlat(material: MeshLambertMaterial): void {
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace(
+      "#include <opaque_fragment>",
+      "if (!gl_FrontFacing) outgoingLight = 0.58 * diffuseColor.rgb;\n#include <opaque_fragment>",
+    );
+  };
+}
+
 interface ShapeMesh {
   mesh: InstancedMesh;
-  fine: BufferGeometry;
-  coarse: BufferGeometry;
   rows: number[]; // of the frame, by instance
 }
 
@@ -76,6 +85,13 @@ export class GrainView {
   private readonly controls: OrbitControls;
   private readonly light = new DirectionalLight(0xffffff, 1.9);
   private readonly grainMaterial = new MeshLambertMaterial();
+  /** Coarse surfaces in one, drawn instead of the fine ones where these would be slow. */
+  private readonly standIn = new Mesh(
+    new BufferGeometry(),
+    new MeshLambertMaterial({ vertexColors: true }),
+  );
+  private standInOutdated = true;
+  private colours = new Float32Array();
   private readonly plane = new Plane();
   private readonly walls = new LineSegments(
     new BufferGeometry(),
@@ -115,8 +131,10 @@ export class GrainView {
     this.camera.add(this.light);
     this.light.position.set(-0.6, 0.9, 1);
     this.highlight.visible = false;
-    this.scene.add(this.highlight);
-    this.paintCutsFlat();
+    this.standIn.visible = false;
+    this.standIn.frustumCulled = false;
+    this.scene.add(this.highlight, this.standIn);
+    for (const material of [this.grainMaterial, this.standIn.material]) paintCutsFlat(material);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener("change", () => this.moved());
@@ -134,12 +152,7 @@ export class GrainView {
 
   setRun(run: Run): void {
     this.run = run;
-    for (const { mesh, fine, coarse } of this.meshes) {
-      this.scene.remove(mesh);
-      mesh.dispose();
-      fine.dispose();
-      coarse.dispose();
-    }
+    for (const { mesh } of this.meshes) this.remove(mesh);
     this.meshes = [];
     this.shapesKnown = run.text.shapes_missing === "";
     this.surfaces = this.shapesKnown ? unpackSurfaces(run.head) : [];
@@ -158,11 +171,18 @@ export class GrainView {
   /** A colour for every row of the frame. */
   setColours(colour: (row: number) => Rgb): void {
     const mixed = new Color();
+    this.colours = new Float32Array(3 * (this.frame?.grains ?? 0));
     for (const { mesh, rows } of this.meshes) {
       mesh.instanceColor ??= new InstancedBufferAttribute(new Float32Array(3 * mesh.instanceMatrix.count), 3);
-      rows.forEach((row, n) => mesh.setColorAt(n, mixed.setRGB(...colour(row), SRGBColorSpace)));
+      rows.forEach((row, n) => {
+        mixed.setRGB(...colour(row), SRGBColorSpace);
+        mesh.setColorAt(n, mixed);
+        mixed.toArray(this.colours, 3 * row);
+      });
       mesh.instanceColor.needsUpdate = true;
     }
+    this.standInOutdated = true;
+    this.chooseSurfaces();
     this.draw();
   }
 
@@ -205,11 +225,11 @@ export class GrainView {
 
   setStyle(style: GrainStyle): void {
     this.style = style;
-    this.grainMaterial.transparent = style === "faint";
-    this.grainMaterial.opacity = style === "faint" ? 0.14 : 1;
-    this.grainMaterial.depthWrite = style === "solid";
-    this.grainMaterial.needsUpdate = true;
-    for (const { mesh } of this.meshes) mesh.visible = style !== "hidden";
+    const { material } = this.standIn;
+    material.transparent = style === "faint";
+    material.opacity = style === "faint" ? 0.14 : 1;
+    material.depthWrite = style === "solid";
+    material.needsUpdate = true;
     this.chooseSurfaces();
     this.draw();
   }
@@ -309,8 +329,29 @@ export class GrainView {
   }
   /** Grains that are seen through need no details, and many layers of them cost much. */
   private chooseSurfaces(): void {
+    const frame = this.frame;
     const coarse = this.coarse || this.style === "faint";
-    for (const shape of this.meshes) shape.mesh.geometry = coarse ? shape.coarse : shape.fine;
+    this.standIn.visible = coarse && this.style !== "hidden";
+    for (const { mesh } of this.meshes) mesh.visible = !coarse && this.style !== "hidden";
+    if (!frame || !this.standIn.visible || !this.standInOutdated) return;
+    const all = merged(
+      frame,
+      (row) => ({ surface: this.shapeOf(frame.shape[row]).coarse, scale: this.scaleOf(frame, row) }),
+      this.colours,
+    );
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(all.position, 3));
+    geometry.setAttribute("normal", new BufferAttribute(all.normal, 3));
+    geometry.setAttribute("color", new BufferAttribute(all.colour, 3));
+    geometry.setIndex(new BufferAttribute(all.index, 1));
+    this.standIn.geometry.dispose();
+    this.standIn.geometry = geometry;
+    this.standInOutdated = false;
+  }
+  private remove(mesh: InstancedMesh): void {
+    this.scene.remove(mesh);
+    mesh.geometry.dispose();
+    mesh.dispose();
   }
 
   private resize(): void {
@@ -320,16 +361,6 @@ export class GrainView {
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
     this.draw();
-  }
-
-  /** Where the slicing plane opens a grain, its inside is painted in one shade, like a cut face. */
-  private paintCutsFlat(): void {
-    this.grainMaterial.onBeforeCompile = (shader) => {
-      shader.fragmentShader = shader.fragmentShader.replace(
-        "#include <opaque_fragment>",
-        "if (!gl_FrontFacing) outgoingLight = 0.58 * diffuseColor.rgb;\n#include <opaque_fragment>",
-      );
-    };
   }
 
   private shapeOf(shape: number): ShapeSurfaces {
@@ -356,19 +387,16 @@ export class GrainView {
     for (const [shape, rows] of rowsOfShape) {
       let entry = reusable.get(shape);
       if (!entry || entry.mesh.instanceMatrix.count < rows.length) {
-        const { fine, coarse } = this.shapeOf(shape);
-        const fineGeometry = entry?.fine ?? geometryOf(fine);
-        const coarseGeometry = entry?.coarse ?? geometryOf(coarse);
-        const mesh = new InstancedMesh(fineGeometry, this.grainMaterial, rows.length);
+        if (entry) this.remove(entry.mesh);
+        const mesh = new InstancedMesh(
+          geometryOf(this.shapeOf(shape).fine),
+          this.grainMaterial,
+          rows.length,
+        );
         mesh.frustumCulled = false;
         mesh.userData.shape = shape;
-        mesh.visible = this.style !== "hidden";
         this.scene.add(mesh);
-        if (entry) {
-          this.scene.remove(entry.mesh);
-          entry.mesh.dispose();
-        }
-        entry = { mesh, fine: fineGeometry, coarse: coarseGeometry, rows };
+        entry = { mesh, rows };
       }
       reusable.delete(shape);
       entry.rows = rows;
@@ -384,11 +412,7 @@ export class GrainView {
       entry.mesh.instanceMatrix.needsUpdate = true;
       this.meshes.push(entry);
     }
-    this.chooseSurfaces();
-    for (const { mesh } of reusable.values()) {
-      this.scene.remove(mesh);
-      mesh.dispose();
-    }
+    for (const { mesh } of reusable.values()) this.remove(mesh);
   }
 
   private placeWalls(frame: Frame): void {
@@ -425,12 +449,14 @@ export class GrainView {
       planes.push(this.plane);
     }
     this.grainMaterial.clippingPlanes = planes;
+    this.standIn.material.clippingPlanes = planes;
     this.chainMaterial.clippingPlanes = planes;
     (this.highlight.material as MeshLambertMaterial).clippingPlanes = planes;
     const side = planes.length > 0 ? DoubleSide : FrontSide;
-    if (this.grainMaterial.side !== side) {
-      this.grainMaterial.side = side;
-      this.grainMaterial.needsUpdate = true;
+    for (const material of [this.grainMaterial, this.standIn.material]) {
+      if (material.side === side) continue;
+      material.side = side;
+      material.needsUpdate = true;
     }
   }
 
