@@ -34,7 +34,8 @@ TEST_F(CliTest, HelpAndVersion) {
   EXPECT_EQ(version.out.find("reckon "), 0U);
   EXPECT_EQ(version.err, "");
   EXPECT_EQ(reckon({"--help"}).code, 0);
-  for (const char* command : {"check", "run", "diff", "surfaces", "bench", "reference"}) {
+  for (const char* command :
+       {"check", "run", "diff", "report", "watch", "surfaces", "bench", "reference"}) {
     const Outcome help = reckon({command, "--help"});
     EXPECT_EQ(help.code, 0) << command;
     EXPECT_NE(help.out.find("Example"), std::string::npos) << command;
