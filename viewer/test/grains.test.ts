@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { boundsOf, clipped, wallLines } from "../src/grains/outlines.ts";
+import { merged } from "../src/grains/merged.ts";
 import { firstHit, pickGrain, turned } from "../src/grains/pick.ts";
 import { colourRange, displacement, rotation } from "../src/grains/quantities.ts";
 import { ball, type Surface } from "../src/grains/surfaces.ts";
@@ -153,4 +154,24 @@ test("a polygon is cut where it crosses a plane", () => {
 test("bounds hold the grains' bounding spheres", () => {
   const { low, high } = boundsOf(frameOf([{ id: 0, position: [1, 2, 3], radius: 0.5 }]));
   assert.deepEqual([low, high], [[0.5, 1.5, 2.5], [1.5, 2.5, 3.5]]);
+});
+
+test("grains merged into one surface stand where they are, in their colours", () => {
+  const frame = frameOf([
+    { id: 0, position: [5, 0, 0] },
+    { id: 1, position: [0, 5, 0], orientation: quarterAboutZ },
+  ]);
+  const small = ball(1);
+  const scales = [1, 2];
+  const all = merged(frame, (row) => ({ surface: small, scale: scales[row] }), Float32Array.of(1, 0, 0, 0, 0, 1));
+  const vertices = small.position.length / 3;
+  assert.equal(all.position.length, 2 * small.position.length);
+  for (let n = 0; n < 2 * vertices; ++n) {
+    const row = n < vertices ? 0 : 1;
+    const offset = [0, 1, 2].map((k) => all.position[3 * n + k] - frame.position[3 * row + k]);
+    near(Math.hypot(...offset), scales[row], 1e-5);
+    for (const k of [0, 1, 2]) near(all.normal[3 * n + k], offset[k] / scales[row], 1e-5);
+    assert.deepEqual([...all.colour.subarray(3 * n, 3 * n + 3)], row === 0 ? [1, 0, 0] : [0, 0, 1]);
+  }
+  assert.equal(all.index[small.index.length], vertices + small.index[0]);
 });

@@ -31,6 +31,7 @@ import type { Frame } from "../data/frame.ts";
 import type { Run } from "../data/run.ts";
 import type { Rgb } from "../colours.ts";
 import { boundsOf, wallLines } from "./outlines.ts";
+import { listenToKeys, listenToPointer } from "./input.ts";
 import { merged } from "./merged.ts";
 import { pickGrain } from "./pick.ts";
 import { ball, type ShapeSurfaces, type Surface, unpackSurfaces } from "./surfaces.ts";
@@ -144,8 +145,15 @@ export class GrainView {
     this.controls.addEventListener("end", () => {
       this.held = false;
     });
-    canvas.addEventListener("keydown", (event) => this.key(event));
-    this.listenForPicks();
+    listenToPointer(canvas, (place) => this.picked(this.grainAt(place)));
+    listenToKeys(canvas, this.camera, this.controls.target, {
+      moved: () => {
+        this.controls.update();
+        this.moved();
+      },
+      picked: () => this.picked(this.grainAt(new Vector2(0, 0))),
+      released: () => this.picked(-1),
+    });
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
@@ -474,69 +482,5 @@ export class GrainView {
       { origin: origin.toArray(), direction: direction.toArray() },
       (at) => !this.slice || this.plane.distanceToPoint(point.set(...at)) >= 0,
     );
-  }
-
-  private listenForPicks(): void {
-    let down: PointerEvent | null = null;
-    this.canvas.addEventListener("pointerdown", (event) => {
-      down = event;
-    });
-    this.canvas.addEventListener("pointerup", (event) => {
-      const still = down && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < 5;
-      down = null;
-      if (!still || event.button !== 0) return;
-      const box = this.canvas.getBoundingClientRect();
-      this.picked(
-        this.grainAt(
-          new Vector2(
-            (2 * (event.clientX - box.left)) / box.width - 1,
-            1 - (2 * (event.clientY - box.top)) / box.height,
-          ),
-        ),
-      );
-    });
-  }
-
-  /** Arrows turn, plus and minus come closer or go back, Enter picks the grain in the middle. */
-  private key(event: KeyboardEvent): void {
-    const turn = Math.PI / 36;
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    const around = new Vector3(0, 0, 1);
-    const sideways = new Vector3().crossVectors(around, offset).normalize();
-    switch (event.key) {
-      case "ArrowLeft":
-        offset.applyAxisAngle(around, -turn);
-        break;
-      case "ArrowRight":
-        offset.applyAxisAngle(around, turn);
-        break;
-      case "ArrowUp":
-        offset.applyAxisAngle(sideways, -turn);
-        break;
-      case "ArrowDown":
-        offset.applyAxisAngle(sideways, turn);
-        break;
-      case "+":
-      case "=":
-        offset.multiplyScalar(0.9);
-        break;
-      case "-":
-        offset.multiplyScalar(1 / 0.9);
-        break;
-      case "Enter":
-        this.picked(this.grainAt(new Vector2(0, 0)));
-        return;
-      case "Escape":
-        this.picked(-1);
-        return;
-      default:
-        return;
-    }
-    event.preventDefault();
-    if (Math.abs(offset.z) < 0.999 * offset.length()) {
-      this.camera.position.copy(this.controls.target).add(offset);
-      this.controls.update();
-    }
-    this.moved();
   }
 }

@@ -274,7 +274,4 @@ test("pictures for the documents", { skip: pictures === "" }, async () => {
   await page.waitForTimeout(200);
   await save("report-curves.png");
   await page.close();
-  const phone = await open(browser, shown, { width: 390, height: 844 });
-  await phone.page.screenshot({ path: path.join(pictures, "report-phone.png") });
-  await phone.page.close();
 });
