@@ -47,6 +47,7 @@ export interface Slice {
   flipped: boolean;
 }
 
+const pickedColour = 0xd81b60;
 const slowFrame = 55; // [ms]; slower machines get the coarse surfaces while the view moves
 const settleTime = 250; // [ms] after the last move until the fine ones come back
 
@@ -92,7 +93,8 @@ export class GrainView {
     new MeshLambertMaterial({ vertexColors: true }),
   );
   private standInOutdated = true;
-  private colours = new Float32Array();
+  private colourOf: (row: number) => Rgb = () => [0.8, 0.8, 0.8];
+  private colours = new Float32Array(); // three per row
   private readonly plane = new Plane();
   private readonly walls = new LineSegments(
     new BufferGeometry(),
@@ -102,7 +104,7 @@ export class GrainView {
   private readonly chainMaterial = new MeshLambertMaterial({ color: 0xffffff });
   private readonly highlight = new Mesh(
     new BufferGeometry(),
-    new MeshLambertMaterial({ color: 0xd81b60, emissive: 0x5a0b28, side: DoubleSide }),
+    new MeshLambertMaterial({ color: pickedColour, emissive: 0x5a0b28, side: DoubleSide }),
   );
   private meshes: ShapeMesh[] = [];
   private surfaces: (ShapeSurfaces | null)[] = [];
@@ -178,12 +180,20 @@ export class GrainView {
 
   /** A colour for every row of the frame. */
   setColours(colour: (row: number) => Rgb): void {
+    this.colourOf = colour;
+    this.paint();
+    this.draw();
+  }
+
+  /** The picked grain has a colour that no map has. */
+  private paint(): void {
     const mixed = new Color();
     this.colours = new Float32Array(3 * (this.frame?.grains ?? 0));
     for (const { mesh, rows } of this.meshes) {
       mesh.instanceColor ??= new InstancedBufferAttribute(new Float32Array(3 * mesh.instanceMatrix.count), 3);
       rows.forEach((row, n) => {
-        mixed.setRGB(...colour(row), SRGBColorSpace);
+        if (row === this.selected) mixed.setHex(pickedColour);
+        else mixed.setRGB(...this.colourOf(row), SRGBColorSpace);
         mesh.setColorAt(n, mixed);
         mixed.toArray(this.colours, 3 * row);
       });
@@ -191,7 +201,6 @@ export class GrainView {
     }
     this.standInOutdated = true;
     this.chooseSurfaces();
-    this.draw();
   }
 
   /** Contacts as bars between centres, as thick as `thickness` says [m]; null: none. */
@@ -250,6 +259,7 @@ export class GrainView {
 
   select(row: number): void {
     this.selected = row;
+    this.paint();
     this.placeHighlight();
     this.draw();
   }
