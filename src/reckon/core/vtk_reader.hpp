@@ -33,9 +33,9 @@ class VtkReader {
   /// Tuples of an array; 0 where there is none.
   [[nodiscard]] std::size_t tuples(VtkSection section, std::string_view name) const;
   /// An array of any number type as doubles, which hold every number that write_vtp's callers
-  /// store. It must have `components` numbers in each of `tuples` tuples.
+  /// store. It must have `components` numbers in each of `expected` tuples.
   [[nodiscard]] std::vector<double> numbers(VtkSection section, std::string_view name,
-                                            std::uint32_t components, std::size_t tuples) const;
+                                            std::uint32_t components, std::size_t expected) const;
 
  private:
   struct Array {
