@@ -5,7 +5,7 @@
 # The one list of Debian packages that the project needs, and the installation of those that are
 # missing. docs/dependencies.md says why each is here.
 #
-#   tools/install_dependencies.sh [--list] GROUP...     groups: build, test, ct, viewer
+#   tools/install_dependencies.sh [--list] GROUP...     groups: build, test, ct, viewer, python
 set -euo pipefail
 
 packages_of() {
@@ -16,13 +16,15 @@ packages_of() {
         libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev zlib1g-dev libcpp-httplib-dev pkgconf ;;
     test)  # what ./check needs beyond that
       echo libgtest-dev clang clang-format clang-tidy libclang-rt-14-dev libomp-dev \
-        python3 git chromium fonts-dejavu-core ;;
+        python3 git chromium fonts-dejavu-core python3-mpi4py ;;
+    python)  # the optional Python package
+      echo python3-dev pybind11-dev python3-numpy python3-tomli-w ;;
     ct)  # the optional component that makes grains from X-ray volumes
       echo libinsighttoolkit5-dev ;;
     viewer)  # what bundles the page of `reckon report`
       echo nodejs npm ;;
     *)
-      echo "install_dependencies.sh: unknown group '$1'; there are: build, test, ct, viewer" >&2
+      echo "install_dependencies.sh: unknown group '$1'; there are: build, test, ct, viewer, python" >&2
       return 2 ;;
   esac
 }
@@ -32,7 +34,7 @@ if [[ ${1:-} == --list ]]; then
   list_only=true
   shift
 fi
-[[ $# -gt 0 ]] || { echo "usage: install_dependencies.sh [--list] GROUP...   (build, test, ct, viewer)" >&2; exit 2; }
+[[ $# -gt 0 ]] || { echo "usage: install_dependencies.sh [--list] GROUP...   (build, test, ct, viewer, python)" >&2; exit 2; }
 
 wanted=()
 for group in "$@"; do
