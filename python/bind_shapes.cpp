@@ -109,6 +109,7 @@ std::vector<SharedShape> from_meshes(const std::vector<std::filesystem::path>& f
 
 void save(const std::vector<SharedShape>& shapes, const std::filesystem::path& path) {
   ShapeLibrary library;
+  library.reserve(shapes.size());
   for (const SharedShape& shape : shapes) library.push_back(*shape);
   save_library(path, library);
 }
