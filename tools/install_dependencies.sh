@@ -5,7 +5,7 @@
 # The one list of Debian packages that the project needs, and the installation of those that are
 # missing. docs/dependencies.md says why each is here.
 #
-#   tools/install_dependencies.sh [--list] GROUP...     groups: build, test, ct
+#   tools/install_dependencies.sh [--list] GROUP...     groups: build, test, ct, viewer, python
 set -euo pipefail
 
 packages_of() {
@@ -13,14 +13,18 @@ packages_of() {
     build)  # what it takes to compile and run the program
       echo g++ cmake ninja-build ccache \
         libfmt-dev libeigen3-dev libhdf5-dev libtomlplusplus-dev libcli11-dev libhwy-dev \
-        libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev ;;
+        libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev zlib1g-dev libcpp-httplib-dev pkgconf ;;
     test)  # what ./check needs beyond that
       echo libgtest-dev clang clang-format clang-tidy libclang-rt-14-dev libomp-dev \
-        python3 git ;;
+        python3 git chromium fonts-dejavu-core python3-mpi4py ;;
+    python)  # the optional Python package
+      echo python3-dev pybind11-dev python3-numpy python3-tomli-w ;;
     ct)  # the optional component that makes grains from X-ray volumes
       echo libinsighttoolkit5-dev ;;
+    viewer)  # what bundles the page of `reckon report`
+      echo nodejs npm ;;
     *)
-      echo "install_dependencies.sh: unknown group '$1'; there are: build, test, ct" >&2
+      echo "install_dependencies.sh: unknown group '$1'; there are: build, test, ct, viewer, python" >&2
       return 2 ;;
   esac
 }
@@ -30,7 +34,7 @@ if [[ ${1:-} == --list ]]; then
   list_only=true
   shift
 fi
-[[ $# -gt 0 ]] || { echo "usage: install_dependencies.sh [--list] GROUP...   (build, test, ct)" >&2; exit 2; }
+[[ $# -gt 0 ]] || { echo "usage: install_dependencies.sh [--list] GROUP...   (build, test, ct, viewer, python)" >&2; exit 2; }
 
 wanted=()
 for group in "$@"; do
@@ -51,6 +55,8 @@ fi
 # One query for all: names that dpkg does not know make it fail, but it still lists the others.
 installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null |
   sed -n 's/^installed //p' || true)
+# Node.js often comes from elsewhere, npm along with it, and Debian's would be in its way.
+command -v node >/dev/null && command -v npm >/dev/null && installed+=$'\nnodejs\nnpm'
 missing=()
 for package in "${wanted[@]}"; do
   grep -qxF -- "$package" <<<"$installed" || missing+=("$package")

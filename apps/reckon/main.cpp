@@ -23,8 +23,10 @@
 #include "reckon/io/run.hpp"
 #include "reckon/parallel/communicator.hpp"
 #include "reference_command.hpp"
+#include "report_command.hpp"
 #include "run_command.hpp"
 #include "surfaces_command.hpp"
+#include "watch_command.hpp"
 
 namespace reckon::app {
 namespace {
@@ -123,6 +125,8 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
   add_check_command(app);
   add_run_command(app, ranks);
   add_diff_command(app);
+  add_report_command(app);
+  add_watch_command(app);
   add_surfaces_command(app);
   add_bench_command(app);
   add_reference_command(app);

@@ -34,7 +34,8 @@ TEST_F(CliTest, HelpAndVersion) {
   EXPECT_EQ(version.out.find("reckon "), 0U);
   EXPECT_EQ(version.err, "");
   EXPECT_EQ(reckon({"--help"}).code, 0);
-  for (const char* command : {"check", "run", "diff", "surfaces", "bench", "reference"}) {
+  for (const char* command :
+       {"check", "run", "diff", "report", "watch", "surfaces", "bench", "reference"}) {
     const Outcome help = reckon({command, "--help"});
     EXPECT_EQ(help.code, 0) << command;
     EXPECT_NE(help.out.find("Example"), std::string::npos) << command;
@@ -50,6 +51,41 @@ TEST_F(CliTest, BenchComparesWithThePlainAlgorithm) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << outcome.out;
   }
   EXPECT_EQ(reckon({"bench", "nothing"}).code, 1);
+}
+
+TEST_F(CliTest, ManualPageAndCompletionKnowEveryCommand) {
+  const std::string manual = reckon({"reference", "man"}).out;
+  for (const char* part : {".TH RECKON 1", ".SS reckon run SCENE", "\\-\\-resume",
+                           ".SS reckon grains generate", ".SH EXIT STATUS"}) {
+    EXPECT_NE(manual.find(part), std::string::npos) << part;
+  }
+  write("completion.sh", reckon({"reference", "bash"}).out);
+  const auto completed = [&](const std::string& words, int at) {
+    return outcome_of(start_line({"/bin/bash", "-c",
+                                  "source ./completion.sh; COMP_WORDS=(" + words +
+                                      "); COMP_CWORD=" + std::to_string(at) +
+                                      "; _reckon; echo \"${COMPREPLY[@]}\""}))
+        .out;
+  };
+  EXPECT_EQ(completed("reckon wa", 1), "watch\n");
+  EXPECT_EQ(completed("reckon grains gen", 2), "generate\n");
+  EXPECT_EQ(completed("reckon run scene.toml --res", 3), "--resume\n");
+  EXPECT_EQ(completed("reckon report \"\"", 2), "\n");  // file names are bash's own business
+}
+
+TEST_F(CliTest, AReportIsOneFileAndNamesWhatIsWrong) {
+  ASSERT_EQ(reckon({"run", "scene.toml", "--steps", "100"}).code, 0);
+  const Outcome made = reckon({"report", "scene.run", "--frames", "1"});
+  if (made.err.find("built without") != std::string::npos) GTEST_SKIP() << made.err;
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.out.find("scene.run/report.html"), std::string::npos);
+  EXPECT_EQ(read_file(root_ / "scene.run/report.html").find("<!doctype html>"), 0U);
+  EXPECT_EQ(reckon({"run", "scene.toml", "--steps", "100", "--overwrite"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(root_ / "scene.run/report.html"));
+  const Outcome none = reckon({"report", "nothing.run"});
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.err.find("not the folder of a run"), std::string::npos);
+  EXPECT_EQ(reckon({"watch", "nothing.run"}).code, 1);
 }
 
 TEST_F(CliTest, MisuseIsOneClearBlock) {
@@ -186,6 +222,8 @@ TEST_F(CliTest, ReferencePagesArePrinted) {
             read_file(RECKON_SOURCE_DIR "/docs/reference/scene.md"));
   EXPECT_EQ(reckon({"reference", "history"}).out,
             read_file(RECKON_SOURCE_DIR "/docs/reference/history.md"));
+  EXPECT_EQ(reckon({"reference", "commands"}).out,
+            read_file(RECKON_SOURCE_DIR "/docs/reference/commands.md"));
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 
 #include "reckon/core/file.hpp"
 #include "reckon/io/checkpoint.hpp"
+#include "reckon/io/fields.hpp"
 #include "reckon/io/history.hpp"
 #include "reckon/io/number_table.hpp"
+#include "reckon/io/saved_fields.hpp"
 #include "scratch.hpp"
 #include "sealed_damage.hpp"
 #include "targets.hpp"
@@ -56,6 +58,28 @@ Target checkpoint_target() {
                 return damaged_sealed_file(input, random, folder->path());
               },
           .cost = 10};
+}
+
+Target fields_target() {
+  const auto folder = std::make_shared<const ScratchFolder>();
+  return {.name = "fields",
+          .valid_inputs =
+              [folder] {
+                const std::filesystem::path file = folder->path() / "valid.vtp";
+                FieldsAtStep fields;
+                fields.grains = small_checkpoint().state.grains;
+                fields.contacts = {{.grain = GrainId{0}, .partner = 1, .to = {0.5, 0, 0}}};
+                fields.wall_displacement = {{0, 0, 1}};
+                write_grain_points(file, fields, std::vector<ShapeSummary>(2), 2650);
+                return std::vector<std::string>{read_file(file)};
+              },
+          .read =
+              [folder](const std::string& input) {
+                std::filesystem::create_directories(folder->path() / "fields");
+                (void)folder->write(RunFolder::field_name("grains", 7), input);
+                (void)read_fields(RunFolder{folder->path()}, 7);
+              },
+          .cost = 3};
 }
 
 Target history_target() {

@@ -21,6 +21,7 @@ std::vector<Target> all_targets() {
                           level_set_text_target(),
                           shape_library_target(),
                           checkpoint_target(),
+                          fields_target(),
                           history_target(),
                           number_table_target(),
                           placement_target(),

@@ -71,7 +71,8 @@ void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& f
                      vtk_array("contacts", touching),
                      vtk_array("contact_force", contact_force)};
   const std::vector<double> time{fields.time};
-  data.field_data = {vtk_array("TimeValue", time)};
+  data.field_data = {vtk_array("TimeValue", time),
+                     vtk_array("wall_displacement", fields.wall_displacement)};
   write_vtp(path, data);
 }
 

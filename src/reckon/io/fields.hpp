@@ -19,12 +19,14 @@ struct FieldsAtStep {
   double time{0};                       ///< [s]
   std::vector<GrainState> grains;       ///< sorted by id
   std::vector<ContactRecord> contacts;  ///< see Simulation::contacts
+  std::vector<Vec3> wall_displacement;  ///< by wall, since time zero [m]
 };
 
 /// Writes one point per grain, by id: `id`, `shape`, `radius` (of the bounding sphere),
 /// `equivalent_radius` (of the sphere of equal volume), `mass`, `orientation` (quaternion w, x, y,
 /// z, body to world), `velocity` and `angular_velocity` (world frame, half a step before),
 /// `speed`, `prescribed`, `contacts` (touching partners, walls included) and `contact_force` (net).
+/// Data of the whole file: `TimeValue` and `wall_displacement`.
 void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& fields,
                         std::span<const ShapeSummary> shapes, double density);
 

@@ -236,6 +236,9 @@ class Session {
     fields.time = simulation_.time();
     fields.contacts = simulation_.contacts();
     fields.grains = simulation_.grain_states();
+    for (const WallPose& pose : simulation_.wall_contacts().poses()) {
+      fields.wall_displacement.push_back(pose.displacement);
+    }
     on_root(ranks_, [&] { files_->write_fields(std::move(fields)); });
   }
 

@@ -102,7 +102,8 @@ void RunFolder::remove_run() const {
     }
     std::filesystem::remove(index(kind));
   }
-  for (const auto& file : {scene(), resolved(), history(), log(), json(), performance()}) {
+  for (const auto& file :
+       {scene(), resolved(), history(), log(), json(), performance(), report()}) {
     std::filesystem::remove(file);
   }
 }

@@ -20,6 +20,7 @@ namespace reckon {
 ///   checkpoints/step_0000001000.h5 ...
 ///   run.json run.log      what ran, where, how long
 ///   performance.json      time per phase and counters, for every rank
+///   report.html           what `reckon report` made of it
 class RunFolder {
  public:
   explicit RunFolder(std::filesystem::path root) : root_{std::move(root)} {}
@@ -31,6 +32,7 @@ class RunFolder {
   [[nodiscard]] std::filesystem::path log() const { return root_ / "run.log"; }
   [[nodiscard]] std::filesystem::path json() const { return root_ / "run.json"; }
   [[nodiscard]] std::filesystem::path performance() const { return root_ / "performance.json"; }
+  [[nodiscard]] std::filesystem::path report() const { return root_ / "report.html"; }
   [[nodiscard]] std::filesystem::path index(std::string_view kind) const;
   /// `kind` is grains, contacts or surfaces; the name is relative to the root.
   [[nodiscard]] static std::string field_name(std::string_view kind, std::uint64_t step);

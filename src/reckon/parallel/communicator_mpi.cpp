@@ -13,6 +13,7 @@
 
 #include "reckon/core/error.hpp"
 #include "reckon/parallel/communicator.hpp"
+#include "reckon/parallel/foreign_communicator.hpp"
 #include "reckon/parallel/mpi_handle.hpp"
 
 namespace reckon {
@@ -220,15 +221,15 @@ void Communicator::abort(int exit_code) const {
   std::_Exit(exit_code);
 }
 
+Communicator communicator_of(int fortran_handle) {
+  return MpiAccess::ranks(MPI_Comm_f2c(fortran_handle));
+}
+
 ParallelSession::ParallelSession(int& argc, char**& argv) {
   int provided = 0;
   // Threads compute, only the main thread speaks to other ranks.
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
-  auto impl = std::make_shared<Communicator::Impl>();
-  impl->handle = MPI_COMM_WORLD;
-  MPI_Comm_rank(MPI_COMM_WORLD, &impl->rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &impl->size);
-  world_ = Communicator{std::move(impl)};
+  world_ = MpiAccess::ranks(MPI_COMM_WORLD);
 }
 
 ParallelSession::~ParallelSession() { MPI_Finalize(); }

@@ -5,6 +5,7 @@
 
 #include "reckon/core/error.hpp"
 #include "reckon/parallel/communicator.hpp"
+#include "reckon/parallel/foreign_communicator.hpp"
 
 namespace reckon {
 
@@ -43,6 +44,13 @@ RepeatedExchange Communicator::repeated_exchange(std::span<const Channel> /*send
   return {};
 }
 void Communicator::abort(int exit_code) const { std::_Exit(exit_code); }
+
+Communicator communicator_of(int /*fortran_handle*/) {
+  throw Error{{.place = {},
+               .problem = "this build has no MPI",
+               .reason = {},
+               .fix = "Build with -DRECKON_MPI=ON, or pass no communicator."}};
+}
 
 ParallelSession::ParallelSession(int& /*argc*/, char**& /*argv*/) {
   // Started by mpirun, every copy of a serial build would run the whole scene and overwrite the

@@ -4,6 +4,9 @@
 
 #include <mpi.h>
 
+#include <memory>
+#include <utility>
+
 #include "reckon/parallel/communicator.hpp"
 
 namespace reckon {
@@ -15,10 +18,18 @@ struct Communicator::Impl {
   int size;
 };
 
-/// The MPI communicator behind `ranks`, for libraries that speak MPI themselves. Only in domain/.
+/// The MPI communicator behind `ranks`, and the other way round. Only in parallel/ and domain/.
 struct MpiAccess {
   [[nodiscard]] static MPI_Comm handle(const Communicator& ranks) {
     return ranks.impl_ ? ranks.impl_->handle : MPI_COMM_SELF;
+  }
+  /// The ranks of `handle`, which must outlive what is returned.
+  [[nodiscard]] static Communicator ranks(MPI_Comm handle) {
+    auto impl = std::make_shared<Communicator::Impl>();
+    impl->handle = handle;
+    MPI_Comm_rank(handle, &impl->rank);
+    MPI_Comm_size(handle, &impl->size);
+    return Communicator{std::move(impl)};
   }
 };
 

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reckon/core/file.hpp"
+#include "reckon/io/human.hpp"
+#include "reckon/report/page.hpp"
+
+namespace reckon::app {
+namespace {
+
+struct Options {
+  std::vector<std::string> folders;
+  std::string output;
+  PageLimits limits;
+};
+
+void report(const Options& options) {
+  const std::vector<RunFolder> runs(options.folders.begin(), options.folders.end());
+  std::filesystem::path output = options.output;
+  if (output.empty()) output = runs.front().report();
+  for (const RunFolder& run : runs) {
+    const std::size_t saved = run.field_steps("grains").size();
+    const std::size_t shown = std::min(saved, options.limits.frames);
+    if (shown == saved) continue;
+    fmt::print("{}: {} of {} saved times (--frames)\n", run.root().string(), shown, saved);
+  }
+  write_file(output, report_page(runs, options.limits));
+  fmt::print("{}: {}; open it in a browser\n", output.string(),
+             human_bytes(std::filesystem::file_size(output)));
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "report", "Show runs in one HTML file: curves, grains in three dimensions, tables");
+  auto options = std::make_shared<Options>();
+  command->add_option("runs", options->folders, "Folders of runs; several are compared")
+      ->required();
+  command->add_option("-o,--output", options->output,
+                      "The file (default: report.html in the first folder)");
+  command
+      ->add_option("--frames", options->limits.frames,
+                   "Saved times to put in at most, evenly spread; 0: only curves and tables")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  command->footer(
+      "The file needs no network and nothing beside it. A run under way can be shown too.\n\n"
+      "Examples:\n"
+      "  reckon report settle.run\n"
+      "  reckon report loose.run dense.run -o compared.html");
+  command->callback([options] { report(*options); });
+}
+
+}  // namespace reckon::app

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <vector>
+
+#include "reckon/io/saved_fields.hpp"
+#include "reckon/simulation/measurement.hpp"
+#include "reckon/simulation/simulation.hpp"
+
+namespace reckon::python {
+
+// Dictionaries of one array per quantity; the names are those of fields/*.vtp.
+
+[[nodiscard]] pybind11::dict table_of(const Measurement& measurement);
+[[nodiscard]] pybind11::dict table_of(const std::vector<GrainState>& grains);
+[[nodiscard]] pybind11::dict table_of(const std::vector<SavedGrain>& grains);
+[[nodiscard]] pybind11::dict table_of(const std::vector<ContactRecord>& contacts);
+
+}  // namespace reckon::python

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/io/saved_fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "reckon/core/error.hpp"
+#include "reckon/core/vtk_reader.hpp"
+
+namespace reckon {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, std::string reason) {
+  throw Error{{.place = path.string(),
+               .problem = "this file of fields contradicts itself",
+               .reason = std::move(reason),
+               .fix = {}}};
+}
+
+/// One array of a file, with the types that the rest of the program uses.
+class Column {
+ public:
+  Column(const VtkReader& file, const std::filesystem::path& path, VtkSection section,
+         const char* name, std::uint32_t components, std::size_t rows)
+      : path_{path},
+        name_{name},
+        components_{components},
+        numbers_{file.numbers(section, name, components, rows)} {
+    for (const double number : numbers_) {
+      if (!std::isfinite(number)) refuse(path_, name_ + " holds what is no finite number");
+    }
+  }
+
+  [[nodiscard]] double number(std::size_t row) const { return numbers_[row * components_]; }
+  [[nodiscard]] std::uint32_t whole(std::size_t row) const {
+    const double value = number(row);
+    if (!(value >= 0 && value <= std::numeric_limits<std::uint32_t>::max()) ||
+        value != std::floor(value)) {
+      refuse(path_, name_ + " holds what is no whole number of 32 bits");
+    }
+    return static_cast<std::uint32_t>(value);
+  }
+  [[nodiscard]] Vec3 vector(std::size_t row) const {
+    return {numbers_[3 * row], numbers_[3 * row + 1], numbers_[3 * row + 2]};
+  }
+  [[nodiscard]] Quaternion quaternion(std::size_t row) const {
+    return {numbers_[4 * row], numbers_[4 * row + 1], numbers_[4 * row + 2], numbers_[4 * row + 3]};
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  std::string name_;
+  std::uint32_t components_;
+  std::vector<double> numbers_;
+};
+
+void read_grains(const std::filesystem::path& path, SavedFields& fields) {
+  const VtkReader file{path};
+  const std::size_t rows = file.tuples(VtkSection::points, "Points");
+  const auto column = [&](const char* name, std::uint32_t components) {
+    return Column{file, path, VtkSection::point_data, name, components, rows};
+  };
+  const Column position{file, path, VtkSection::points, "Points", 3, rows};
+  const Column id = column("id", 1);
+  const Column shape = column("shape", 1);
+  const Column prescribed = column("prescribed", 1);
+  const Column radius = column("radius", 1);
+  const Column equivalent_radius = column("equivalent_radius", 1);
+  const Column mass = column("mass", 1);
+  const Column orientation = column("orientation", 4);
+  const Column velocity = column("velocity", 3);
+  const Column angular_velocity = column("angular_velocity", 3);
+  const Column touching = column("contacts", 1);
+  fields.grains.reserve(rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    fields.grains.push_back({GrainId{id.whole(row)}, ShapeId{shape.whole(row)},
+                             prescribed.whole(row) != 0, radius.number(row),
+                             equivalent_radius.number(row), mass.number(row), position.vector(row),
+                             orientation.quaternion(row), velocity.vector(row),
+                             angular_velocity.vector(row), touching.whole(row)});
+    if (row > 0 && fields.grains[row - 1].id >= fields.grains[row].id) {
+      refuse(path, "grains are not in the order of their ids");
+    }
+  }
+  fields.time = Column{file, path, VtkSection::field_data, "TimeValue", 1, 1}.number(0);
+  const std::size_t walls = file.tuples(VtkSection::field_data, "wall_displacement");
+  if (walls == 0) return;
+  const Column displacement{file, path, VtkSection::field_data, "wall_displacement", 3, walls};
+  for (std::size_t wall = 0; wall < walls; ++wall) {
+    fields.wall_displacement.push_back(displacement.vector(wall));
+  }
+}
+
+void read_contacts(const std::filesystem::path& path, SavedFields& fields) {
+  const VtkReader file{path};
+  const std::size_t rows = file.tuples(VtkSection::cell_data, "grain");
+  const auto column = [&](const char* name, std::uint32_t components) {
+    return Column{file, path, VtkSection::cell_data, name, components, rows};
+  };
+  const Column ends{file, path, VtkSection::points, "Points", 3, 2 * rows};
+  const Column grain = column("grain", 1);
+  const Column partner = column("partner", 1);
+  const Column with_wall = column("with_wall", 1);
+  const Column force = column("force", 3);
+  const Column deepest = column("deepest", 1);
+  const Column nodes = column("nodes", 1);
+  const auto is_grain = [&](std::uint32_t id) {
+    const auto found =
+        std::lower_bound(fields.grains.begin(), fields.grains.end(), GrainId{id},
+                         [](const SavedGrain& saved, GrainId wanted) { return saved.id < wanted; });
+    return found != fields.grains.end() && found->id == GrainId{id};
+  };
+  fields.contacts.reserve(rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const ContactRecord contact{GrainId{grain.whole(row)}, with_wall.whole(row) != 0,
+                                partner.whole(row),        ends.vector(2 * row),
+                                ends.vector(2 * row + 1),  force.vector(row),
+                                deepest.number(row),       nodes.whole(row)};
+    if (!is_grain(contact.grain.get()) || (!contact.with_wall && !is_grain(contact.partner))) {
+      refuse(path, "a contact names a grain that does not exist");
+    }
+    fields.contacts.push_back(contact);
+  }
+  std::stable_partition(fields.contacts.begin(), fields.contacts.end(),
+                        [](const ContactRecord& contact) { return !contact.with_wall; });
+}
+
+}  // namespace
+
+SavedFields read_fields(const RunFolder& folder, std::uint64_t step) {
+  SavedFields fields;
+  fields.step = step;
+  read_grains(folder.root() / RunFolder::field_name("grains", step), fields);
+  const std::filesystem::path contacts = folder.root() / RunFolder::field_name("contacts", step);
+  fields.has_contacts = std::filesystem::exists(contacts);
+  if (fields.has_contacts) read_contacts(contacts, fields);
+  return fields;
+}
+
+}  // namespace reckon

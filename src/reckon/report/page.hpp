@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "reckon/report/run_pieces.hpp"
+
+namespace reckon {
+
+/// The page without data, as `viewer/` makes it, or nothing where this program was built without.
+[[nodiscard]] std::string_view viewer_page();
+
+/// The page with the data of these runs in it: one file that needs nothing else. Throws Error when
+/// a folder holds no run, or where this program was built without the page.
+[[nodiscard]] std::string report_page(std::span<const RunFolder> runs, const PageLimits& limits);
+
+/// The page that asks the server it came from for its data (report/watch_server.hpp).
+[[nodiscard]] std::string live_page();
+
+}  // namespace reckon

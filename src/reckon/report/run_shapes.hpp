@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reckon/io/run_folder.hpp"
+#include "reckon/report/display_mesh.hpp"
+#include "reckon/shape/shape.hpp"
+#include "reckon/simulation/config.hpp"
+
+namespace reckon {
+
+/// One shape as the page shows it.
+struct RunShape {
+  std::string name;
+  std::vector<double> measures;  ///< as shape_measures() lists them
+  double volume{0};              ///< [m^3]
+  DisplayMesh fine;
+  DisplayMesh coarse;  ///< for machines that cannot turn the fine ones smoothly
+};
+
+struct RunShapes {
+  std::vector<RunShape> shapes;       ///< by ShapeId; those that no grain has are without surfaces
+  std::vector<std::uint64_t> grains;  ///< how many have each shape
+  std::string missing;                ///< why there are none; empty where there are
+};
+
+/// The shapes of a run from the libraries that `scene` names. `grains` is the number of grains of
+/// each shape: the more grains and shapes, the fewer triangles each. Where a checkpoint shows that
+/// the libraries are not those that ran, or one is gone, there are none, and it says why.
+[[nodiscard]] RunShapes read_run_shapes(const RunFolder& folder, const SceneConfig& scene,
+                                        const std::vector<std::uint64_t>& grains);
+
+}  // namespace reckon

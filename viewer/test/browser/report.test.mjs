@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// `reckon report` as a reader meets it: opened from disk in a browser.
+import assert from "node:assert/strict";
+import { mkdirSync, readFileSync, renameSync } from "node:fs";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { launch, makeRuns, open, pictures, pixels, pressedScene, reckon, settled } from "./harness.mjs";
+
+const canvas = "#view canvas";
+let browser;
+let runs;
+let report;
+
+const url = (name) => pathToFileURL(path.join(runs.folder, name)).href;
+const field = (page, label, kind) => page.locator(`label:has-text("${label}") ${kind}`).first();
+
+before(async () => {
+  runs = makeRuns({
+    rough: { scene: pressedScene() },
+    smooth: { scene: pressedScene({ friction: 0.1 }) },
+    many: {
+      scene: pressedScene({ grains: 5000, title: "Five thousand grains" })
+        .replaceAll('"10 mm", "10 mm", "12 mm"', '"42 mm", "42 mm", "48 mm"'),
+      steps: 20,
+    },
+  });
+  reckon(runs.folder, "report", "rough.run");
+  report = url("rough.run/report.html");
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  runs?.remove();
+});
+
+test("a report opens from disk without an error and asks nobody for anything", async () => {
+  const { page, faults, requests } = await open(browser, report);
+  assert.deepEqual(faults, []);
+  const outside = requests.filter((request) => !/^(file|data|blob):/.test(request));
+  assert.deepEqual(outside, []);
+  assert.match(await page.title(), /^Sixty grains are pressed/);
+  assert.match(await page.locator("#summary").innerText(), /Status\s+complete/);
+  assert.match(await page.locator("#performance").innerText(), /force/);
+  assert.match(await page.locator("#scene").innerText(), /Program\s+reckon \d/);
+  assert.equal(await page.locator("#shapes tbody tr").count(), 10);
+  await page.close();
+});
+
+test("grains are drawn, and turning, slicing, colours and contact forces change the picture", async () => {
+  const { page, faults } = await open(browser, report);
+  const first = await pixels(page, canvas);
+  assert.ok(first.share > 0.05, `only ${first.share} of the picture is covered`);
+  assert.ok(first.colours > 40, `only ${first.colours} colours`);
+  let last = first.hash;
+  const changed = async (what) => {
+    await settled(page);
+    const { hash } = await pixels(page, canvas);
+    assert.notEqual(hash, last, `${what} changed nothing`);
+    last = hash;
+  };
+  for (const quantity of ["rotation", "stress", "deviator", "coordination", "size", "speed", "spin"]) {
+    await field(page, "Colour by", "select").selectOption(quantity);
+    await changed(`colouring by ${quantity}`);
+  }
+  await field(page, "Colours", "select").selectOption("cividis");
+  await changed("another map");
+  await field(page, "Slice", "select").selectOption("y");
+  await changed("a slice");
+  await field(page, "other side", "input").check();
+  await changed("the other side of the slice");
+  await field(page, "Slice", "select").selectOption("none");
+  await field(page, "Contact forces", "input").check();
+  await changed("contact forces");
+  await field(page, "Grains", "select").selectOption("hidden");
+  await changed("hiding the grains");
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("the slider goes through the saved times", async () => {
+  const { page, faults } = await open(browser, report);
+  const slider = page.locator('input[aria-label="Saved time"]');
+  const last = await slider.getAttribute("max");
+  assert.equal(last, "14"); // steps 0 to 7000 by 500
+  assert.equal(await page.locator("#view").getAttribute("data-step"), "7000");
+  const end = await pixels(page, canvas);
+  await slider.focus();
+  await page.keyboard.press("Home");
+  await page.waitForSelector('#view[data-step="0"]');
+  await settled(page);
+  assert.notEqual((await pixels(page, canvas)).hash, end.hash);
+  await page.keyboard.press("ArrowRight");
+  await page.waitForSelector('#view[data-step="500"]');
+  await page.locator("button.play").click();
+  await page.waitForSelector('#view[data-step="2000"]');
+  await page.locator("button.play").click();
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("a grain is picked by the mouse, by the keyboard and by its number", async () => {
+  const { page, faults } = await open(browser, report);
+  const picked = page.locator(".picked");
+  assert.equal(await picked.getAttribute("data-grain"), "");
+  await page.locator(canvas).click();
+  const grain = await picked.getAttribute("data-grain");
+  assert.match(grain, /^\d+$/);
+  const numbers = await picked.innerText();
+  for (const word of ["Diameter", "Displacement", "Rotation", "Partners", "Mean stress"]) {
+    assert.ok(numbers.includes(word), word);
+  }
+  await page.keyboard.press("Escape");
+  assert.equal(await picked.getAttribute("data-grain"), "");
+  await page.keyboard.press("Enter");
+  assert.equal(await picked.getAttribute("data-grain"), grain);
+  const before = await pixels(page, canvas);
+  for (let n = 0; n < 6; ++n) await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("+");
+  await settled(page);
+  assert.notEqual((await pixels(page, canvas)).hash, before.hash);
+  await page.locator('input[aria-label="Number of a grain"]').fill("17");
+  await page.keyboard.press("Enter");
+  assert.equal(await picked.getAttribute("data-grain"), "17");
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("curves show values under the pointer, zoom together, and are read by the keyboard", async () => {
+  const { page, faults } = await open(browser, report);
+  const charts = await page.locator(".chart").evaluateAll((all) => all.map(({ id }) => id));
+  for (const id of ["stress-ratio", "volumetric-strain", "void-ratio", "energy", "coordination", "unbalanced"]) {
+    assert.ok(charts.includes(`chart-${id}`), id);
+  }
+  const plot = page.locator("#chart-stress-ratio .u-over");
+  await plot.scrollIntoViewIfNeeded();
+  const box = await plot.boundingBox();
+  const values = page.locator("#chart-void-ratio .values");
+  await page.mouse.move(box.x + 0.6 * box.width, box.y + 40);
+  assert.match(await values.innerText(), /void ratio\s+[\d.]+/);
+  const all = (await pixels(page, "#chart-void-ratio .plot")).hash;
+  await page.mouse.move(box.x + 0.2 * box.width, box.y + 40);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 60, { steps: 5 });
+  await page.mouse.up();
+  await page.mouse.move(0, 0);
+  await page.locator("button", { hasText: "Show all" }).waitFor();
+  assert.notEqual((await pixels(page, "#chart-void-ratio .plot")).hash, all);
+  await page.locator("button", { hasText: "Show all" }).click();
+  await page.locator("#chart-void-ratio .plot").focus();
+  for (let n = 0; n < 10; ++n) await page.keyboard.press("ArrowRight");
+  const there = await values.innerText();
+  await page.keyboard.press("ArrowRight");
+  assert.notEqual(await values.innerText(), there);
+  await field(page, "Any column", "select").selectOption("touching_nodes");
+  await field(page, "Over", "select").selectOption("time");
+  await field(page, "Stage", "select").selectOption("0");
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("the table downloaded as CSV has the numbers of history.csv", async () => {
+  const { page } = await open(browser, report);
+  const waiting = page.waitForEvent("download");
+  await page.locator("button.csv").click();
+  const saved = readFileSync(await (await waiting).path(), "utf8");
+  const original = readFileSync(path.join(runs.folder, "rough.run", "history.csv"), "utf8");
+  const cells = (text) => text.trim().split("\n").map((line) => line.split(","));
+  const [got, wanted] = [cells(saved), cells(original)];
+  assert.deepEqual(got[0], wanted[0]);
+  assert.deepEqual(got.slice(1).map((row) => row.map(Number)), wanted.slice(1).map((row) => row.map(Number)));
+  await page.close();
+});
+
+test("a phone shows all of it without scrolling sideways", async () => {
+  const { page, faults } = await open(browser, report, { width: 390, height: 844 });
+  const { width, small } = await page.evaluate(() => ({
+    width: document.documentElement.scrollWidth,
+    small: [...document.querySelectorAll("p, td, th, dd, dt, li, label, button, select")].filter(
+      (element) => element.checkVisibility() && Number.parseFloat(getComputedStyle(element).fontSize) < 11.5,
+    ).length,
+  }));
+  assert.ok(width <= 390, `the page is ${width} wide`);
+  assert.equal(small, 0, "some text is too small");
+  const seen = await pixels(page, canvas);
+  assert.ok(seen.share > 0.04);
+  await page.locator("#chart-stress-ratio").scrollIntoViewIfNeeded();
+  assert.ok((await pixels(page, "#chart-stress-ratio .plot")).colours > 5);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("two runs stand on one page", async () => {
+  reckon(runs.folder, "report", "rough.run", "smooth.run", "-o", "both.html");
+  const { page, faults } = await open(browser, url("both.html"));
+  assert.equal(await page.locator("h1").innerText(), "rough.run and smooth.run");
+  assert.deepEqual(await page.locator("#chart-stress-ratio .legend li").allInnerTexts(), ["rough.run", "smooth.run"]);
+  const first = await pixels(page, canvas);
+  await field(page, "Run", "select").selectOption("1");
+  await settled(page);
+  assert.notEqual((await pixels(page, canvas)).hash, first.hash);
+  assert.equal(await page.locator("button.csv").count(), 2);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("without its shape library a run is shown as spheres, and says so", async () => {
+  const library = path.join(runs.folder, "sand.h5");
+  renameSync(library, `${library}.away`);
+  try {
+    reckon(runs.folder, "report", "smooth.run", "-o", "spheres.html");
+  } finally {
+    renameSync(`${library}.away`, library);
+  }
+  const { page, faults } = await open(browser, url("spheres.html"));
+  assert.match(await page.locator("#view").innerText(), /drawn as spheres of equal volume/);
+  assert.ok((await pixels(page, canvas)).share > 0.05);
+  await page.locator(canvas).click();
+  assert.match(await page.locator(".picked").getAttribute("data-grain"), /^\d+$/);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("five thousand grains load, draw, turn and are picked", async () => {
+  reckon(runs.folder, "report", "many.run");
+  const began = Date.now();
+  const { page, faults } = await open(browser, url("many.run/report.html"));
+  const ready = Date.now() - began;
+  assert.ok((await pixels(page, canvas)).share > 0.1);
+  const drawn = async () => Number(await page.locator(canvas).getAttribute("data-drawn"));
+  const box = await page.locator(canvas).boundingBox();
+  await page.mouse.move(box.x + 200, box.y + 200);
+  await page.mouse.down();
+  for (let n = 0; n < 12; ++n) await page.mouse.move(box.x + 200 + 10 * n, box.y + 200);
+  const [from, start] = [await drawn(), Date.now()];
+  for (let n = 0; n < 40; ++n) {
+    await page.mouse.move(box.x + 320 - 5 * n, box.y + 200 + n);
+    await page.waitForTimeout(25);
+  }
+  const rate = (1000 * ((await drawn()) - from)) / (Date.now() - start);
+  await page.mouse.up();
+  assert.ok(rate > 0);
+  await settled(page);
+  await page.locator(canvas).click();
+  assert.match(await page.locator(".picked").getAttribute("data-grain"), /^\d+$/);
+  console.log(`note: 5000 grains: ready after ${ready} ms, ${rate.toFixed(1)} pictures a second by software`);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test("pictures for the documents", { skip: pictures === "" }, async () => {
+  mkdirSync(pictures, { recursive: true });
+  const shown = process.env.RECKON_REPORT ? pathToFileURL(process.env.RECKON_REPORT).href : report;
+  const { page } = await open(browser, shown, { width: 1280, height: 860 });
+  const save = (name) => page.screenshot({ path: path.join(pictures, name) });
+  const to = (id) => page.locator(`#${id}`).evaluate((element) => element.scrollIntoView());
+  await save("report.png");
+  await to("view");
+  await field(page, "Contact forces", "input").check();
+  await settled(page);
+  await save("report-forces.png");
+  await field(page, "Contact forces", "input").uncheck();
+  await field(page, "Grains", "select").selectOption("solid");
+  await field(page, "Colour by", "select").selectOption("rotation");
+  await field(page, "Slice", "select").selectOption("y");
+  await page.locator(canvas).click();
+  await settled(page);
+  await save("report-slice.png");
+  await to("curves");
+  const box = await page.locator("#chart-stress-ratio .u-over").boundingBox();
+  await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.5 * box.height);
+  await page.waitForTimeout(200);
+  await save("report-curves.png");
+  await page.close();
+});
