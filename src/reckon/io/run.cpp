@@ -221,6 +221,7 @@ class Session {
 
   [[nodiscard]] HistoryRow row() const {
     HistoryRow row{.measurement = last_};
+    row.membrane = config_.membrane.has_value();
     if (has_stages()) row.stage = stage_index() + 1;
     if (config_.output.sample) row.sample = &sample_;
     return row;
@@ -236,6 +237,7 @@ class Session {
     fields.time = simulation_.time();
     fields.contacts = simulation_.contacts();
     fields.grains = simulation_.grain_states();
+    if (files_ != nullptr) fields.membrane = membrane_now(simulation_);
     on_root(ranks_, [&] { files_->write_fields(std::move(fields)); });
   }
 
