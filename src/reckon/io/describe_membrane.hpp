@@ -13,7 +13,7 @@
 namespace reckon {
 
 template <class Visitor>
-void describe(Visitor& v, MembraneConfig& membrane, const SceneConfig& scene) {
+void describe(Visitor& v, MembraneConfig& membrane) {
   v.text({.name = "mould",
           .required = true,
           .meaning = "Name of the cylinder wall whose place it takes, between the planes at its "
@@ -45,8 +45,6 @@ void describe(Visitor& v, MembraneConfig& membrane, const SceneConfig& scene) {
             .meaning = "Stiffness per area with which it pushes on grains; also that of the shear "
                        "springs there."},
            membrane.normal_stiffness);
-  v.rule(membrane.normal_stiffness || scene.contact.law == ContactLawKind::area,
-         {"normal_stiffness"}, "`normal_stiffness` is needed unless the contact law is `area`");
   constexpr std::array ends{Choice{"sealed", MembraneEnds::sealed},
                             Choice{"sliding", MembraneEnds::sliding}};
   v.choice({.name = "ends",

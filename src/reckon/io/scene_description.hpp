@@ -295,7 +295,7 @@ void describe(Visitor& v, SceneConfig& scene) {
                     .standard = "none",
                     .meaning = "A flexible sheet around a cylindrical sample, under pressure from "
                                "outside."},
-                   scene.membrane, [&](MembraneConfig& membrane) { describe(v, membrane, scene); });
+                   scene.membrane, [&](MembraneConfig& membrane) { describe(v, membrane); });
   v.tables({.name = "outflow",
             .standard = "grains stay",
             .meaning = "Grains whose centre gets beyond it are taken out of the simulation; "

@@ -77,6 +77,10 @@ void StageCheck::check_membrane() {
     fault_("membrane", "never takes its place, since no stage gives it a pressure",
            "Add `membrane = { pressure = ... }` to a stage.");
   }
+  if (!membrane.normal_stiffness && scene_.contact.law != ContactLawKind::area) {
+    fault_("membrane", "needs a `normal_stiffness`",
+           "There is none by rule unless the contact law is `area`.");
+  }
   const auto mould = std::find_if(walls_.begin(), walls_.end(),
                                   [&](const Wall& wall) { return wall.name == membrane.mould; });
   if (mould == walls_.end() || !std::holds_alternative<CylinderSurface>(mould->surface)) {
