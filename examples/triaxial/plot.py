@@ -69,7 +69,7 @@ def main() -> None:
         axes[0][1].set_title("laboratory", fontsize=10)
     axes[0][0].set_ylabel("mobilised friction angle [deg]")
     axes[1][0].set_ylabel("dilation [%]")
-    axes[0][0].set_ylim(bottom=0)
+    axes[0][0].set_ylim(0, 60)
     for row in axes:
         for each in row:
             each.grid(alpha=0.3)

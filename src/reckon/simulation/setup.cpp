@@ -123,6 +123,8 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
   for (const ShapeSummary& shape : scene.shapes) {
     smallest_radius = std::min(smallest_radius, shape.outline.bounding_radius);
     outlines.push_back(shape.outline);
+    // Law `linear` counts nodes: only all of them mean what it says.
+    if (config.contact.law == ContactLawKind::linear) outlines.back().sphere_radius = 0;
   }
   prepared.setup = {
       .shapes = ShapeStore{ranks, std::move(outlines), scene.read_shape},
