@@ -95,7 +95,7 @@ def main() -> None:
     direction = min(spread, key=lambda pair: pair[0])[1]
     across = after[:, :2] @ np.array([-direction[1], direction[0]])
     slice_of = np.abs(across) < 2.5 * radius.mean()
-    figure, axes = plt.subplots(1, 2, figsize=(7, 6), sharey=True)
+    figure, axes = plt.subplots(1, 2, figsize=(8, 4.2), sharey=True)
     for each, values, title, top in (
         (axes[0], shear, "local shear strain", np.nanquantile(shear, 0.97)),
         (axes[1], turn, "rotation [deg]", np.quantile(turn, 0.97)),
