@@ -178,6 +178,9 @@ std::vector<ShapeSource> solid_sources(const SolidOptions& own) {
   using Values = std::vector<double>;
   add_all(own.sphere, "sphere", 1, 1,
           [](const Values& v, double edge) { return sphere_mesh(v[0], edge); });
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    sources[n].sphere_radius = parse_lengths("--sphere", own.sphere[n], 1, 1)[0];
+  }
   add_all(own.ellipsoid, "ellipsoid", 3, 3, [](const Values& v, double edge) {
     return ellipsoid_mesh({v[0], v[1], v[2]}, edge);
   });

@@ -92,6 +92,13 @@ void add_walls(const Simulation& simulation, const Vec3& origin, Sums& sums,
     sums.on_walls.add(outer(wall.force, simulation.frames()[slot].position - origin));
     sums.on_walls.add(wall.first_moment);
   }
+  for (const MembraneForce& force : simulation.membrane_contacts().forces()) {
+    if (force.touching == 0) continue;
+    ++degree[force.slot];
+    sums.wall_branches.add(force.first_moment);
+    sums.on_walls.add(outer(force.force, simulation.frames()[force.slot].position - origin));
+    sums.on_walls.add(force.first_moment);
+  }
 }
 
 void add_grains(const Simulation& simulation, std::span<const std::int64_t> degree, Sums& sums) {
@@ -114,6 +121,12 @@ Vec3 shortening(const Vec3& from, const Vec3& to) {
 /// The largest rate of strain by axis over the last step [1/s].
 double largest_rate(const Simulation& simulation, const Enclosure& now) {
   const double dt = simulation.setup().time_step;
+  if (const Membrane* membrane = simulation.membrane()) {  // along the axis: it bulges more slowly
+    const auto poses = simulation.wall_contacts().poses();
+    const MembraneState& state = membrane->state();
+    const Vec3 apart = poses[state.lid.get()].velocity - poses[state.floor.get()].velocity;
+    return std::abs(dot(apart, state.start.axis_unit)) * now.areas[state.lid.get()] / now.volume;
+  }
   std::vector<WallPose> before(simulation.wall_contacts().poses().begin(),
                                simulation.wall_contacts().poses().end());
   for (WallPose& pose : before) pose.displacement -= dt * pose.velocity;
@@ -148,7 +161,7 @@ void fill_network(const Sums& sums, double largest_force, SampleMeasurement& res
 
 SampleMeasurement measure_sample(const Simulation& simulation) {
   SampleMeasurement result;
-  const auto space = enclosure_of(simulation.setup().walls, simulation.wall_contacts().poses());
+  const auto space = simulation.space();
   const Vec3 centre = space ? 0.5 * (space->low + space->high) : Vec3{};
   Sums sums;
   std::vector<std::int64_t> degree(simulation.grains().size(), 0);
@@ -167,8 +180,7 @@ SampleMeasurement measure_sample(const Simulation& simulation) {
   result.size = space->size();
   const double solids = sums.solids.value();
   if (solids > 0) result.void_ratio = (space->volume - solids) / solids;
-  if (const auto start =
-          enclosure_of(simulation.setup().walls, simulation.poses_at_stage_start())) {
+  if (const auto start = simulation.space_at_stage_start()) {
     result.strain = shortening(start->size(), space->size());
     result.volumetric_strain = portable::log(start->volume / space->volume);
   }

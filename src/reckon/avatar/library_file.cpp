@@ -19,7 +19,7 @@
 namespace reckon {
 namespace {
 
-const Hdf5Kind library_kind{"shape library", 1};
+const Hdf5Kind library_kind{"shape library", 2};  // 2 added sphere_radius
 
 /// The scalar fields of a shape, each a dataset of one row per shape.
 struct ScalarField {
@@ -53,6 +53,8 @@ constexpr std::array scalar_fields{
     ScalarField{"/descriptor/roundness", "1",
                 [](Shape& s) -> double& { return s.descriptors.roundness; }},
 };
+
+constexpr const char* sphere_radius_field = "/shape/sphere_radius";
 
 struct VectorField {
   const char* name;
@@ -92,6 +94,7 @@ Shape table_row(const Shape& shape) {
   row.descriptors = shape.descriptors;
   row.bounding_radius = shape.bounding_radius;
   row.lipschitz = shape.lipschitz;
+  row.sphere_radius = shape.sphere_radius;
   return row;
 }
 
@@ -134,6 +137,10 @@ class LibraryReader {
     for (const ScalarField& field : scalar_fields) {
       const auto values = file_.read<double>(field.name, {count});
       for (std::size_t s = 0; s < count; ++s) field.of(table_[s]) = values[s];
+    }
+    if (file_.version() >= 2) {
+      const auto radii = file_.read<double>(sphere_radius_field, {count});
+      for (std::size_t s = 0; s < count; ++s) table_[s].sphere_radius = radii[s];
     }
     for (const VectorField& field : vector_fields) {
       const auto values = file_.read<double>(field.name, {count, 3});
@@ -235,6 +242,9 @@ void save_library(const std::filesystem::path& path, const ShapeLibrary& library
     for (Shape& shape : table) values.push_back(field.of(shape));
     file.write(field.name, values, {count}, field.unit);
   }
+  std::vector<double> radii;
+  for (const Shape& shape : library) radii.push_back(shape.sphere_radius);
+  file.write(sphere_radius_field, radii, {count}, "m");
   for (const VectorField& field : vector_fields) {
     std::vector<double> values;
     for (Shape& shape : table) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,14 @@ void check_outline(const ShapeOutline& outline, std::uint64_t values, const std:
              fmt::format("{} was found", positive));
     }
   }
+  const double radius = outline.sphere_radius;
+  const double equal = std::cbrt(0.75 / std::numbers::pi * volume);
+  const bool fits =
+      radius == 0 || (std::abs(radius - equal) < 0.1 * equal && radius <= outline.bounding_radius);
+  if (!fits) {
+    refuse(place, "the radius of the sphere that it should be does not fit",
+           fmt::format("{} m at a volume of {} m^3", radius, volume));
+  }
 }
 
 void check_shape(const Shape& shape, const std::string& place) {
@@ -84,6 +93,7 @@ std::uint64_t shape_digest(const Shape& shape) {
   add(hash,
       std::vector<double>{shape.level_set.spacing, origin.x, origin.y, origin.z, volume, inertia.x,
                           inertia.y, inertia.z, shape.bounding_radius, shape.lipschitz});
+  if (shape.sphere_radius != 0) add(hash, std::vector<double>{shape.sphere_radius});
   add(hash, shape.level_set.values);
   for (const auto* values : {&shape.nodes.x, &shape.nodes.y, &shape.nodes.z, &shape.nodes.area}) {
     add(hash, *values);

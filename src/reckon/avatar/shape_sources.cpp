@@ -89,10 +89,16 @@ ShapeSource solid_source(std::string name, double extent,
           }};
 }
 
+ShapeSource sphere_source(std::string name, double radius) {
+  ShapeSource source = solid_source(std::move(name), 2 * radius,
+                                    [radius](double edge) { return sphere_mesh(radius, edge); });
+  source.sphere_radius = radius;
+  return source;
+}
+
 ShapeSource equal_sphere_source(std::string name, double volume) {
   const double radius = portable::cbrt(volume / (4.0 / 3 * std::numbers::pi));
-  return solid_source(std::move(name), 2 * radius,
-                      [radius](double edge) { return sphere_mesh(radius, edge); });
+  return sphere_source(std::move(name), radius);
 }
 
 ShapeSource generated_source(const GrainStatistics& statistics, std::uint64_t seed,
@@ -164,6 +170,10 @@ ShapeLibrary build_library(std::span<const ShapeSource> sources, const ShapeReso
   std::size_t done = 0;
   const auto build = [&](std::size_t s) {
     library[s] = build_shape(sources[s].surface(resolution), resolution, sources[s].name);
+    if (sources[s].sphere_radius > 0) {
+      library[s].sphere_radius = sources[s].sphere_radius;
+      library[s].bounding_radius = std::max(library[s].bounding_radius, library[s].sphere_radius);
+    }
     const std::lock_guard lock{mutex};
     ++done;
     if (on_progress) on_progress(done);

@@ -24,6 +24,7 @@ struct ShapeSource {
   /// Makes the closed surface, fine enough for the resolution where the source can choose. Called
   /// in any thread; throws Error when the source is at fault.
   std::function<TriangleMesh(const ShapeResolution&)> surface;
+  double sphere_radius{0};  ///< where it is a sphere [m]
 };
 
 // Sources that choose their own mesh take edges of half a voxel: the chords then lie within
@@ -42,6 +43,7 @@ struct ShapeSource {
 /// An analytic solid: `mesh` makes it for a target edge [m], `extent` is its largest length [m].
 [[nodiscard]] ShapeSource solid_source(std::string name, double extent,
                                        std::function<TriangleMesh(double target_edge)> mesh);
+[[nodiscard]] ShapeSource sphere_source(std::string name, double radius);
 /// The sphere of this volume [m^3].
 [[nodiscard]] ShapeSource equal_sphere_source(std::string name, double volume);
 /// Grain `index` of a generated population.

@@ -172,19 +172,18 @@ std::optional<Enclosure> convex_body(std::span<const Plane> planes, std::size_t 
   return body;
 }
 
-std::optional<Enclosure> right_cylinder(std::span<const Plane> planes, std::size_t cylinder_wall,
-                                        const CylinderSurface& cylinder, const Vec3& displacement,
-                                        std::size_t wall_count) {
+std::optional<ClosedCylinder> between(std::span<const Plane> planes,
+                                      const CylinderSurface& cylinder, const Vec3& displacement) {
   const Vec3& axis = cylinder.axis_unit;
-  const Vec3 foot = cylinder.point + displacement;
+  const Vec3 point = cylinder.point + displacement;
   const Plane* floor = nullptr;
   const Plane* lid = nullptr;
-  double low = -infinity;  // along the axis, from the foot
+  double low = -infinity;  // along the axis, from the point
   double high = infinity;
   for (const Plane& plane : planes) {
     const double slope = dot(plane.normal_unit, axis);
     if (std::abs(std::abs(slope) - 1) > 1e-12) return std::nullopt;
-    const double place = (plane.offset - dot(plane.normal_unit, foot)) / slope;
+    const double place = (plane.offset - dot(plane.normal_unit, point)) / slope;
     if (slope > 0 && place > low) {
       low = place;
       floor = &plane;
@@ -194,15 +193,31 @@ std::optional<Enclosure> right_cylinder(std::span<const Plane> planes, std::size
     }
   }
   if (floor == nullptr || lid == nullptr || !(high > low)) return std::nullopt;
-  const double r = cylinder.radius;
-  const double height = high - low;
+  return ClosedCylinder{{point + low * axis, axis, cylinder.radius, high - low},
+                        WallId{static_cast<std::uint32_t>(floor->wall)},
+                        WallId{static_cast<std::uint32_t>(lid->wall)}};
+}
+
+std::vector<Plane> placed_planes(std::span<const Wall> walls, std::span<const WallPose> poses) {
+  std::vector<Plane> planes;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    if (const auto* plane = std::get_if<PlaneSurface>(&walls[w].surface)) {
+      planes.push_back(placed(w, *plane, poses[w]));
+    }
+  }
+  return planes;
+}
+
+Enclosure inside(const ClosedCylinder& cylinder, std::size_t cylinder_wall,
+                 std::size_t wall_count) {
+  const auto& [foot, axis, r, height] = cylinder.place;
   Enclosure body{std::numbers::pi * r * r * height, {}, {}, std::vector<double>(wall_count, 0)};
-  body.areas[floor->wall] = body.areas[lid->wall] = std::numbers::pi * r * r;
+  body.areas[cylinder.floor.get()] = body.areas[cylinder.lid.get()] = std::numbers::pi * r * r;
   body.areas[cylinder_wall] = 2 * std::numbers::pi * r * height;
   for (int a = 0; a < 3; ++a) {
     const double rim = r * std::sqrt(std::max(0.0, 1 - axis[a] * axis[a]));
-    const double end = foot[a] + low * axis[a];
-    const double other_end = foot[a] + high * axis[a];
+    const double end = foot[a];
+    const double other_end = foot[a] + height * axis[a];
     body.low[a] = std::min(end, other_end) - rim;
     body.high[a] = std::max(end, other_end) + rim;
   }
@@ -213,24 +228,29 @@ std::optional<Enclosure> right_cylinder(std::span<const Plane> planes, std::size
 
 std::optional<Enclosure> enclosure_of(std::span<const Wall> walls,
                                       std::span<const WallPose> poses) {
-  std::vector<Plane> planes;
+  const std::vector<Plane> planes = placed_planes(walls, poses);
   std::optional<std::size_t> cylinder;
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    if (const auto* plane = std::get_if<PlaneSurface>(&walls[w].surface)) {
-      planes.push_back(placed(w, *plane, poses[w]));
-    } else if (cylinder) {
-      return std::nullopt;
-    } else {
-      cylinder = w;
-    }
+    if (!std::holds_alternative<CylinderSurface>(walls[w].surface)) continue;
+    if (cylinder) return std::nullopt;
+    cylinder = w;
   }
   if (cylinder) {
-    return right_cylinder(planes, *cylinder, std::get<CylinderSurface>(walls[*cylinder].surface),
-                          poses[*cylinder].displacement, walls.size());
+    const auto closed = between(planes, std::get<CylinderSurface>(walls[*cylinder].surface),
+                                poses[*cylinder].displacement);
+    if (!closed) return std::nullopt;
+    return inside(*closed, *cylinder, walls.size());
   }
   const bool all_across_axes = std::all_of(planes.begin(), planes.end(),
                                            [](const Plane& p) { return axis_of(p).has_value(); });
   return all_across_axes ? right_box(planes, walls.size()) : convex_body(planes, walls.size());
+}
+
+std::optional<ClosedCylinder> closed_cylinder(std::span<const Wall> walls,
+                                              std::span<const WallPose> poses, WallId cylinder) {
+  return between(placed_planes(walls, poses),
+                 std::get<CylinderSurface>(walls[cylinder.get()].surface),
+                 poses[cylinder.get()].displacement);
 }
 
 }  // namespace reckon

@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "reckon/boundary/membrane_mesh.hpp"
 #include "reckon/boundary/wall.hpp"
+#include "reckon/core/id.hpp"
 
 namespace reckon {
 
@@ -25,5 +27,16 @@ struct Enclosure {
 /// cylinder cut by oblique planes, or several cylinders.
 [[nodiscard]] std::optional<Enclosure> enclosure_of(std::span<const Wall> walls,
                                                     std::span<const WallPose> poses);
+
+/// A cylinder of the scene between the planes that close it.
+struct ClosedCylinder {
+  CylinderPlace place;  ///< of the part between the planes
+  WallId floor;         ///< at the foot
+  WallId lid;
+};
+/// Nothing where a plane is not at right angles to the axis, or none is at an end.
+[[nodiscard]] std::optional<ClosedCylinder> closed_cylinder(std::span<const Wall> walls,
+                                                            std::span<const WallPose> poses,
+                                                            WallId cylinder);
 
 }  // namespace reckon

@@ -58,6 +58,7 @@ void WallContacts::rebuild(std::span<const GrainFrame> frames, const MotionBudge
   first_of_slot_.assign(1, 0);
   for (std::uint32_t slot = 0; slot < frames.size(); ++slot) {
     for (std::uint32_t w = 0; w < walls_.size(); ++w) {
+      if (removed_[w]) continue;
       const double reach = frames[slot].shape->bounding_radius + budget.of(frames[slot].velocity) +
                            budget.of(poses_[w].velocity);
       if (!(distance(walls_[w], poses_[w], frames[slot].position) < reach)) continue;

@@ -53,6 +53,7 @@ class WallContacts {
       : walls_{std::move(walls)},
         engine_{engine},
         lanes_{law_lanes(simd)},
+        removed_(walls_.size(), false),
         travelled_(walls_.size(), 0.0) {}
 
   /// Places the walls for one step; `driven` as for poses_at. To be called before rebuild and
@@ -60,6 +61,9 @@ class WallContacts {
   void move_walls(std::span<const DrivenWall> driven, std::uint64_t step, double time_step);
   /// Sets the Coulomb coefficient of every wall, in their order.
   void set_friction(std::span<const double> friction);
+  /// Takes a wall away, with its springs, from the next rebuild on.
+  void remove(WallId wall) { removed_[wall.get()] = true; }
+  [[nodiscard]] bool is_removed(WallId wall) const { return removed_[wall.get()]; }
   /// Lists the grains that can meet a wall before they or it used up their budgets.
   void rebuild(std::span<const GrainFrame> frames, const MotionBudget& budget);
   /// `meter` has followed these frames, slot by slot; the plain engine does not look at it.
@@ -114,6 +118,7 @@ class WallContacts {
   std::vector<Wall> walls_;
   ContactEngine engine_;
   LawLanes lanes_;
+  std::vector<bool> removed_;  // per wall
   std::vector<WallPose> poses_;
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> first_of_slot_;

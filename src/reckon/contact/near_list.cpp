@@ -9,6 +9,7 @@
 
 #include "reckon/contact/clearance.hpp"
 #include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/sphere_contact.hpp"
 
 namespace reckon {
 namespace {
@@ -49,6 +50,10 @@ double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave,
                                 ? list_.partner().both_radii
                                 : master.shape->bounding_radius + slave.shape->bounding_radius;
   const double margin = rounding_margin(both_radii, odometer);
+  if (are_spheres(master, slave)) {
+    const double gap = touch_spheres(master, slave, touches);
+    return gap < 0 ? wake_always : odometer + std::max(gap - margin, 0.0);
+  }
   list_.prefetch_wakes(odometer);
   const Vec3 offset_world = master.position - slave.position;
   if (!spheres_meet(offset_world, both_radii)) {

@@ -3,12 +3,17 @@
 #include "reckon/contact/pair_kernel.hpp"
 
 #include "reckon/contact/placement.hpp"
+#include "reckon/contact/sphere_contact.hpp"
 
 namespace reckon {
 
 void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector<Touch>& touches) {
   const ShapeView& shape = *master.shape;
   const ShapeView& other = *slave.shape;
+  if (are_spheres(master, slave)) {
+    touch_spheres(master, slave, touches);
+    return;
+  }
   const LevelSetView grid = other.level_set;  // a copy: the compiler may keep it in registers
   if (!spheres_meet(master.position - slave.position,
                     shape.bounding_radius + other.bounding_radius)) {

@@ -14,7 +14,8 @@
 namespace reckon {
 namespace {
 
-const Hdf5Kind kind{"checkpoint", 3};  // 2 added departed grains, 3 driven walls and stages
+// 2 added departed grains, 3 driven walls and stages, 4 the membrane.
+const Hdf5Kind kind{"checkpoint", 4};
 
 /// How the parts of the state lie in columns. The same walk fills columns from the state, and the
 /// state from columns: `Columns` offers number, vector, quaternion, id and flag.
@@ -48,6 +49,39 @@ void walk_wall(Columns& columns, Wall& wall) {
   columns.vector("displacement", "m", wall.displacement);
   columns.vector("velocity", "m/s", wall.velocity);
   columns.vector("displacement_at_stage_start", "m", wall.displacement_at_stage_start);
+}
+
+/// One row where the membrane is in place, else none.
+template <class Columns, class Membrane>
+void walk_membrane(Columns& columns, Membrane& membrane) {
+  columns.vector("foot", "m", membrane.start.foot);
+  columns.vector("axis", "1", membrane.start.axis_unit);
+  columns.number("radius", "m", membrane.start.radius);
+  columns.number("height", "m", membrane.start.height);
+  columns.id("floor", membrane.floor);
+  columns.id("lid", membrane.lid);
+  columns.vector("floor_start", "m", membrane.floor_start);
+  columns.vector("lid_start", "m", membrane.lid_start);
+  columns.number("pressure_before", "Pa", membrane.pressure_before);
+  columns.number("volume_at_stage_start", "m^3", membrane.volume_at_stage_start);
+  columns.number("height_at_stage_start", "m", membrane.height_at_stage_start);
+}
+
+template <class Columns, class Node>
+void walk_membrane_node(Columns& columns, Node& node) {
+  columns.vector("position", "m", node.position);
+  columns.vector("velocity", "m/s", node.velocity);
+  columns.number("lost_to_friction", "J", node.ledger.friction);
+  columns.number("lost_to_damping", "J", node.ledger.damping);
+  columns.number("work_of_pressure", "J", node.ledger.wall_work);
+}
+
+template <class Columns, class Spring>
+void walk_membrane_spring(Columns& columns, Spring& spring) {
+  columns.integer("node", spring.node);
+  columns.id("grain", spring.grain);
+  columns.vector("shear_force", "N", spring.shear_force);
+  columns.vector("normal", "1", spring.normal);
 }
 
 /// Appends one row per walk to the columns of a table, which the first walk makes.
@@ -233,6 +267,30 @@ void read_contacts(const Hdf5Reader& file, const std::string& table, std::uint64
   }
 }
 
+void read_membrane(const Hdf5Reader& file, MembraneState& membrane) {
+  membrane.nodes.resize(rows_of(file, "/membrane_node/position"));
+  const std::uint64_t rows = rows_of(file, "/membrane/radius");
+  if (rows != (membrane.in_place() ? 1U : 0U)) {
+    refuse(file, "it has nodes of a membrane without its place, or the other way round");
+  }
+  Extractor place{"/membrane/", rows, file};
+  if (rows > 0) {
+    place.begin_row(0);
+    walk_membrane(place, membrane);
+  }
+  Extractor nodes{"/membrane_node/", membrane.nodes.size(), file};
+  for (std::size_t row = 0; row < membrane.nodes.size(); ++row) {
+    nodes.begin_row(row);
+    walk_membrane_node(nodes, membrane.nodes[row]);
+  }
+  membrane.springs.resize(rows_of(file, "/membrane_spring/node"));
+  Extractor springs{"/membrane_spring/", membrane.springs.size(), file};
+  for (std::size_t row = 0; row < membrane.springs.size(); ++row) {
+    springs.begin_row(row);
+    walk_membrane_spring(springs, membrane.springs[row]);
+  }
+}
+
 }  // namespace
 
 std::vector<CheckpointColumn> to_columns(const SimulationState& state) {
@@ -252,6 +310,17 @@ std::vector<CheckpointColumn> to_columns(const SimulationState& state) {
                 walk_wall(to, row_or_blank(state.driven_walls, row, no_wall));
               });
   columns.push_back({"/stage/start", "1", 1, state.stage_starts});
+  const MembraneState& membrane = state.membrane;
+  append_rows("/membrane/", membrane.in_place() ? 1 : 0, columns,
+              [&](Appender& to, std::size_t) { walk_membrane(to, membrane); });
+  append_rows("/membrane_node/", membrane.nodes.size(), columns,
+              [&](Appender& to, std::size_t row) {
+                walk_membrane_node(to, row_or_blank(membrane.nodes, row, MembraneNode{}));
+              });
+  append_rows("/membrane_spring/", membrane.springs.size(), columns,
+              [&](Appender& to, std::size_t row) {
+                walk_membrane_spring(to, row_or_blank(membrane.springs, row, MembraneSpring{}));
+              });
   const PairSprings no_pair;
   append_rows("/pair/", state.pair_springs.size(), columns, [&](Appender& to, std::size_t row) {
     const PairSprings& pair = row_or_blank(state.pair_springs, row, no_pair);
@@ -343,6 +412,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
       refuse(file, "a stage starts before the one before it");
     }
   }
+  if (file.version() >= 4) read_membrane(file, state.membrane);
   const std::uint64_t pairs = rows_of(file, "/pair/id_a");
   const auto id_a = file.read<std::uint32_t>("/pair/id_a", {pairs});
   const auto id_b = file.read<std::uint32_t>("/pair/id_b", {pairs});

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "reckon/io/describe_membrane.hpp"
 #include "reckon/io/scene_key.hpp"
 #include "reckon/simulation/config.hpp"
 
@@ -164,6 +165,12 @@ void describe(Visitor& v, StageConfig& stage) {
              .unit_note = "steps",
              .meaning = "Steps between ParaView files in this stage."},
             stage.fields_interval);
+  v.optional_table({.name = "membrane",
+                    .standard = "as in the stage before",
+                    .meaning = "The pressure on the membrane, which is in place from the first "
+                               "stage on that has this."},
+                   stage.membrane,
+                   [&](MembranePressureConfig& membrane) { describe(v, membrane); });
   v.tables({.name = "control",
             .standard = "walls stand still",
             .meaning = "Planes that move in this stage; others stand where the last stage left "

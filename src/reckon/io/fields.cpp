@@ -109,6 +109,42 @@ void write_contact_lines(const std::filesystem::path& path, std::span<const Cont
   write_vtp(path, data);
 }
 
+std::optional<MembraneAtStep> membrane_now(const Simulation& simulation) {
+  const Membrane* membrane = simulation.membrane();
+  if (membrane == nullptr) return std::nullopt;
+  MembraneAtStep now;
+  for (std::uint32_t n = 0; n < membrane->mesh().size(); ++n) {
+    const MembraneNode& node = membrane->nodes()[n];
+    now.places.push_back(node.position);
+    now.displacements.push_back(node.position - membrane->mesh().places()[n]);
+    now.velocities.push_back(node.velocity);
+    const auto around = membrane->mesh().neighbors(n);
+    for (std::size_t corner = 0; corner < 2 && around[1] != MembraneMesh::none; ++corner) {
+      auto& points = now.triangles.connectivity;
+      points.insert(points.end(), {n, around[corner], around[corner + 1]});
+      now.triangles.offsets.push_back(static_cast<std::int64_t>(points.size()));
+    }
+  }
+  now.contact_forces.resize(now.places.size());
+  for (const MembraneTouch& touch : membrane->touches()) {
+    now.contact_forces[touch.spring.node] += touch.force;
+  }
+  return now;
+}
+
+void write_membrane(const std::filesystem::path& path, const MembraneAtStep& membrane,
+                    double time) {
+  VtkPolyData data;
+  data.points = vtk_array("Points", membrane.places);
+  data.polygons = membrane.triangles;
+  data.point_data = {vtk_array("displacement", membrane.displacements),
+                     vtk_array("velocity", membrane.velocities),
+                     vtk_array("contact_force", membrane.contact_forces)};
+  const std::vector<double> times{time};
+  data.field_data = {vtk_array("TimeValue", times)};
+  write_vtp(path, data);
+}
+
 void write_grain_surfaces(const std::filesystem::path& path, std::span<const GrainState> grains,
                           std::span<const TriangleMesh> surfaces, double time) {
   // Pictures do not need doubles, and these files are the largest of a run.

@@ -3,15 +3,28 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/avatar/triangle_mesh.hpp"
+#include "reckon/core/vtk_xml.hpp"
 #include "reckon/grains/grains.hpp"
 #include "reckon/simulation/simulation.hpp"
 
 namespace reckon {
+
+/// A membrane at one step.
+struct MembraneAtStep {
+  VtkCells triangles;
+  std::vector<Vec3> places;          ///< of its nodes [m]
+  std::vector<Vec3> displacements;   ///< since it took its place [m]
+  std::vector<Vec3> velocities;      ///< half a step before [m/s]
+  std::vector<Vec3> contact_forces;  ///< of grains on nodes [N]
+};
+/// Nothing while it is not in place.
+[[nodiscard]] std::optional<MembraneAtStep> membrane_now(const Simulation& simulation);
 
 /// What fields are written from: the assembly at one step.
 struct FieldsAtStep {
@@ -20,6 +33,7 @@ struct FieldsAtStep {
   std::vector<GrainState> grains;       ///< sorted by id
   std::vector<ContactRecord> contacts;  ///< see Simulation::contacts
   std::vector<Vec3> wall_displacement;  ///< by wall, since time zero [m]
+  std::optional<MembraneAtStep> membrane;
 };
 
 /// Writes one point per grain, by id: `id`, `shape`, `radius` (of the bounding sphere),
@@ -35,6 +49,9 @@ void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& f
 /// number), `with_wall`, `deepest`, `nodes`.
 void write_contact_lines(const std::filesystem::path& path, std::span<const ContactRecord> contacts,
                          double time);
+
+/// Writes the membrane's triangles, with `displacement`, `velocity` and `contact_force` per node.
+void write_membrane(const std::filesystem::path& path, const MembraneAtStep& membrane, double time);
 
 /// Writes the grains' true surfaces where the grains are, with `id`, `shape` and `speed` per
 /// triangle. `surfaces[shape]` are in the body frame.

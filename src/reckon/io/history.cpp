@@ -160,6 +160,13 @@ std::vector<HistoryColumn> history_columns(const HistoryLayout& layout) {
                          fmt::format("force of the grains on wall {}", wall.name)});
     }
   }
+  if (layout.membrane) {
+    columns.push_back({"membrane_pressure_Pa", "on the membrane; 0 before it is in place"});
+    columns.push_back({"membrane_stretch_J",
+                       "energy stored in the membrane's bonds, which "
+                       "`elastic_J` holds too"});
+    columns.push_back({"membrane_nodes", "nodes of the membrane that touch a grain"});
+  }
   if (layout.stages) columns.push_back({"stage", "the stage under way, counted from 1"});
   if (layout.sample) add_sample_columns(columns);
   return columns;
@@ -173,12 +180,15 @@ std::string history_reference_markdown() {
       "as the same bits. Energies add up as\n\n"
       "    translation + rotation + gravity + elastic + friction + dashpot + damping\n"
       "      + departed - body_work - wall_work = constant + balance_error\n\n"
-      "Column `stage` is there where the scene has stages; `volume_m3` and what follows where "
+      "Columns `membrane_...` are there where the scene has a membrane, whose contacts, energies "
+      "and "
+      "work of pressure the other columns include. Column `stage` is there where the scene has "
+      "stages; `volume_m3` and what follows where "
       "`output.sample` is true. The row at the last step of a stage belongs to that stage.\n\n"
       "This page is made by `reckon reference history`.\n\n"
       "| column | meaning |\n|---|---|\n";
   const Wall example{.name = "WALL", .surface = PlaneSurface{}, .law = LinearLaw{}};
-  for (const HistoryColumn& column : history_columns({std::span{&example, 1}, true, true})) {
+  for (const HistoryColumn& column : history_columns({std::span{&example, 1}, true, true, true})) {
     page += fmt::format("| `{}` | {} |\n", column.name, column.meaning);
   }
   return page;
@@ -195,6 +205,9 @@ std::string history_row(const HistoryRow& told) {
       m.deepest_overlap, m.largest_speed, m.momentum.x, m.momentum.y, m.momentum.z);
   for (const Vec3& force : m.wall_force) {
     row += fmt::format(",{},{},{}", force.x, force.y, force.z);
+  }
+  if (told.membrane) {
+    row += fmt::format(",{},{},{}", m.membrane_pressure, m.membrane_stretch, m.membrane_nodes);
   }
   if (told.stage) row += fmt::format(",{}", *told.stage);
   if (told.sample != nullptr) row += sample_cells(*told.sample);

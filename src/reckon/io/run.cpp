@@ -221,6 +221,7 @@ class Session {
 
   [[nodiscard]] HistoryRow row() const {
     HistoryRow row{.measurement = last_};
+    row.membrane = config_.membrane.has_value();
     if (has_stages()) row.stage = stage_index() + 1;
     if (config_.output.sample) row.sample = &sample_;
     return row;
@@ -239,6 +240,7 @@ class Session {
     for (const WallPose& pose : simulation_.wall_contacts().poses()) {
       fields.wall_displacement.push_back(pose.displacement);
     }
+    if (files_ != nullptr) fields.membrane = membrane_now(simulation_);
     on_root(ranks_, [&] { files_->write_fields(std::move(fields)); });
   }
 

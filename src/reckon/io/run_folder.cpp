@@ -18,7 +18,7 @@
 namespace reckon {
 namespace {
 
-constexpr std::array field_kinds{"grains", "contacts", "surfaces"};
+constexpr std::array field_kinds{"grains", "contacts", "surfaces", "membrane"};
 
 /// Steps of all files "PREFIX<digits>SUFFIX" in a folder, ascending.
 std::vector<std::uint64_t> numbered_files(const std::filesystem::path& folder,

@@ -30,12 +30,14 @@ RunOutputs::RunOutputs(RunFolder folder, const LoadedScene& scene, const Prepare
       density_{scene.config.material.density},
       time_step_{prepared.time_step.step},
       history_{folder_.history(),
-               {prepared.setup.walls, !prepared.setup.stages.empty(), config_.sample},
+               {prepared.setup.walls, prepared.setup.membrane.has_value(),
+                !prepared.setup.stages.empty(), config_.sample},
                rows_to_keep(schedule_, resumed_at)} {
   if (!resumed_at) return;
   take_over("grains", *resumed_at, grains_);
   take_over("contacts", *resumed_at, contacts_);
   take_over("surfaces", *resumed_at, surfaces_);
+  take_over("membrane", *resumed_at, membrane_);
   if (schedule_.history_due(*resumed_at)) last_row_ = resumed_at;
   if (schedule_.fields_due(*resumed_at)) last_frame_ = resumed_at;
 }
@@ -59,6 +61,10 @@ void RunOutputs::write_fields(const FieldsAtStep& fields) {
     if (surface_meshes_.empty()) surface_meshes_ = surface_meshes(fields.grains, read_shape_);
     write_grain_surfaces(file("surfaces"), fields.grains, surface_meshes_, fields.time);
     add_to_index("surfaces", fields.step, surfaces_);
+  }
+  if (fields.membrane) {
+    write_membrane(file("membrane"), *fields.membrane, fields.time);
+    add_to_index("membrane", fields.step, membrane_);
   }
   last_frame_ = fields.step;
 }

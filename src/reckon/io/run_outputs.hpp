@@ -47,6 +47,7 @@ class RunOutputs {
   std::vector<PvdEntry> grains_;
   std::vector<PvdEntry> contacts_;
   std::vector<PvdEntry> surfaces_;
+  std::vector<PvdEntry> membrane_;
   std::vector<TriangleMesh> surface_meshes_;  // made when first needed
   std::optional<std::uint64_t> last_row_;
   std::optional<std::uint64_t> last_frame_;

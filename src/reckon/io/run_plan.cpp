@@ -51,6 +51,13 @@ void describe_assembly(const LoadedScene& scene, const PreparedScene& prepared, 
   for (const ShapeId shape : in_use) {
     plan.memory_shapes += scene.shapes[shape.get()].outline.memory();
   }
+  if (const auto& membrane = prepared.setup.membrane) {
+    const auto poses = poses_at(prepared.setup.walls, {}, 0, prepared.setup.time_step);
+    if (const auto mould = closed_cylinder(prepared.setup.walls, poses, membrane->mould)) {
+      plan.membrane_nodes = MembraneMesh{mould->place, membrane->spacing}.size();
+      plan.membrane_areal_mass = membrane->areal_mass;
+    }
+  }
   plan.bin_edge = plan.largest_diameter + prepared.setup.skin;
   std::set<std::array<double, 3>> bins;
   for (const GrainState& grain : scene.grains) {
@@ -184,6 +191,11 @@ std::string plan_text(const RunPlan& plan) {
                             plan.largest_diameter));
   line("nodes", fmt::format("{} on all grains", human_count(plan.nodes)));
   line("walls", fmt::format("{}", plan.walls));
+  if (plan.membrane_nodes > 0) {
+    line("membrane",
+         fmt::format("{} nodes where its mould is now; {:.3g} kg/m^2, for the time step",
+                     human_count(plan.membrane_nodes), plan.membrane_areal_mass));
+  }
   line("bins",
        fmt::format("{} in use, {:.4g} m wide; {} pairs listed at the start",
                    human_count(plan.occupied_bins), plan.bin_edge, human_count(plan.listed_pairs)));
@@ -241,6 +253,10 @@ std::string plan_json(const RunPlan& plan) {
   json.value("smallest_diameter_m", plan.smallest_diameter);
   json.value("largest_diameter_m", plan.largest_diameter);
   json.value("solid_mass_kg", plan.solid_mass);
+  if (plan.membrane_nodes > 0) {
+    json.value("membrane_nodes", plan.membrane_nodes);
+    json.value("membrane_areal_mass_kg_per_m2", plan.membrane_areal_mass);
+  }
   json.value("bin_edge_m", plan.bin_edge);
   json.value("occupied_bins", plan.occupied_bins);
   json.value("listed_pairs", plan.listed_pairs);

@@ -23,6 +23,9 @@ struct RunPlan {
   double largest_diameter{0};   ///< [m]
   double solid_mass{0};         ///< [kg]
 
+  std::uint64_t membrane_nodes{0};  ///< as its mould stands at the start
+  double membrane_areal_mass{0};    ///< that the time step asks for [kg/m^2]
+
   double bin_edge{0};  ///< [m]
   std::uint64_t occupied_bins{0};
   std::uint64_t listed_pairs{0};  ///< at the start

@@ -291,6 +291,11 @@ void describe(Visitor& v, SceneConfig& scene) {
            scene.grains, [&](GrainsConfig& grains) { describe(v, grains); });
   v.tables({.name = "wall", .standard = "no walls", .meaning = "A wall around the grains."},
            scene.walls, [&](WallConfig& wall) { describe(v, wall, scene); });
+  v.optional_table({.name = "membrane",
+                    .standard = "none",
+                    .meaning = "A flexible sheet around a cylindrical sample, under pressure from "
+                               "outside."},
+                   scene.membrane, [&](MembraneConfig& membrane) { describe(v, membrane); });
   v.tables({.name = "outflow",
             .standard = "grains stay",
             .meaning = "Grains whose centre gets beyond it are taken out of the simulation; "

@@ -19,6 +19,7 @@ StageCheck::StageCheck(const LoadedScene& scene, Fault fault)
       closed_{enclosure_of(walls_, poses_at(walls_, {}, 0, 1)).has_value()} {}
 
 void StageCheck::run() {
+  check_membrane();
   for (std::size_t n = 0; n < scene_.stages.size(); ++n) {
     const StageConfig& stage = scene_.stages[n];
     const std::string key = fmt::format("stage[{}]", n);
@@ -56,6 +57,53 @@ void StageCheck::check_control(const ControlConfig& control, const std::string& 
   }
   if (control.target == WallTarget::stress && !control.rate_limit) {
     fault_(key, "needs a `rate_limit`", "There is none by rule for a stress of zero.");
+  }
+}
+
+void StageCheck::check_membrane() {
+  const auto& stages = scene_.stages;
+  const auto has_pressure = [](const StageConfig& s) { return s.membrane.has_value(); };
+  const auto first = std::find_if(stages.begin(), stages.end(), has_pressure);
+  if (!scene_.membrane) {
+    if (first != stages.end()) {
+      fault_(fmt::format("stage[{}].membrane", first - stages.begin()),
+             "gives a pressure for a membrane that the scene does not have",
+             "Describe it in a table [membrane].");
+    }
+    return;
+  }
+  const MembraneConfig& membrane = *scene_.membrane;
+  if (first == stages.end()) {
+    fault_("membrane", "never takes its place, since no stage gives it a pressure",
+           "Add `membrane = { pressure = ... }` to a stage.");
+  }
+  if (!membrane.normal_stiffness && scene_.contact.law != ContactLawKind::area) {
+    fault_("membrane", "needs a `normal_stiffness`",
+           "There is none by rule unless the contact law is `area`.");
+  }
+  const auto mould = std::find_if(walls_.begin(), walls_.end(),
+                                  [&](const Wall& wall) { return wall.name == membrane.mould; });
+  if (mould == walls_.end() || !std::holds_alternative<CylinderSurface>(mould->surface)) {
+    return fault_("membrane.mould", fmt::format("no cylinder is named \"{}\"", membrane.mould),
+                  "Name the cylinder wall that holds the sample until then.");
+  }
+  const WallId id{static_cast<std::uint32_t>(mould - walls_.begin())};
+  const auto closed = closed_cylinder(walls_, poses_at(walls_, {}, 0, 1), id);
+  if (!closed) {
+    return fault_("membrane.mould", "has not a plane at right angles to it at each end",
+                  "Add them: they hold the ends of the membrane.");
+  }
+  const CylinderPlace& place = closed->place;
+  if (!(membrane.spacing <= place.radius)) {
+    fault_("membrane.spacing", "is larger than the radius of the mould",
+           "A third of a grain's diameter is good.");
+  }
+  constexpr double most_nodes = 4e6;
+  const double nodes = MembraneMesh::expected_size(place, membrane.spacing);
+  if (nodes > most_nodes) {
+    fault_("membrane.spacing",
+           fmt::format("makes {:.3g} nodes, more than {:.0g}", nodes, most_nodes),
+           "A third of a grain's diameter is good.");
   }
 }
 

@@ -24,6 +24,7 @@ class StageCheck {
  private:
   void check_control(const ControlConfig& control, const std::string& key,
                      std::vector<bool>& controlled);
+  void check_membrane();
   void check_goal(const StageConfig& stage, const std::string& key);
   [[nodiscard]] std::string known_planes() const;
 

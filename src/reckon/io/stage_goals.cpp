@@ -27,9 +27,8 @@ double strain_since_start(const Simulation& simulation, const SampleMeasurement&
     const Vec3& strain = sample.strain;
     return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)});
   }
-  const auto& walls = simulation.setup().walls;
-  const auto start = enclosure_of(walls, simulation.poses_at_stage_start());
-  const auto now = enclosure_of(walls, simulation.wall_contacts().poses());
+  const auto start = simulation.space_at_stage_start();
+  const auto now = simulation.space();
   if (!start || !now) return 0;
   double largest = 0;
   for (const WallControl& control : stage.controls) {
@@ -47,7 +46,7 @@ struct WallStresses {
 
 WallStresses wall_stresses(const Simulation& simulation) {
   WallStresses result;
-  const auto space = enclosure_of(simulation.setup().walls, simulation.wall_contacts().poses());
+  const auto space = simulation.space();
   const std::vector<WallReaction> reactions = simulation.wall_reactions();
   if (!space) return {std::numeric_limits<double>::infinity(), result.driven};
   for (const WallControl& control : simulation.stage()->controls) {

@@ -45,6 +45,11 @@ std::vector<StagePlan> plan_stages(const LoadedScene& scene, double time_step) {
       if (control.target == WallTarget::stress) stress = std::max(stress, control.value);
       if (control.target == WallTarget::strain_rate) rate = std::max(rate, std::abs(control.value));
     }
+    if (stage.membrane) {
+      plan.controls += fmt::format("{}membrane at {:.4g} Pa", plan.controls.empty() ? "" : ", ",
+                                   stage.membrane->pressure);
+      stress = std::max(stress, stage.membrane->pressure);
+    }
     if (stress > 0) held = stress;
     if (rate > 0 && held > 0) {
       const double density = config.material.density;

@@ -141,7 +141,10 @@ std::string stage_report(const SceneConfig& scene, const HistoryTable& history) 
       const bool known = columns.at(row, "mean_stress_Pa") > 0;
       if (known && columns.at(row, "stage") == static_cast<double>(n + 1)) rows.push_back(row);
     }
-    if (!rows.empty()) text += paragraph(scene.stages[n].name, held > 0, columns, rows);
+    const bool bulges =
+        std::any_of(scene.stages.begin(), scene.stages.begin() + static_cast<std::ptrdiff_t>(n) + 1,
+                    [](const StageConfig& s) { return s.membrane.has_value(); });
+    if (!rows.empty()) text += paragraph(scene.stages[n].name, held > 0 || bulges, columns, rows);
   }
   return text;
 }

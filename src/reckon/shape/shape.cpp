@@ -63,7 +63,8 @@ ShapeOutline outline_of(const Shape& shape) {
           shape.nodes.size(),
           shape.mass,
           shape.bounding_radius,
-          shape.lipschitz};
+          shape.lipschitz,
+          shape.sphere_radius};
 }
 
 std::uint64_t ShapeOutline::memory() const {
@@ -75,7 +76,8 @@ ShapeView::ShapeView(const ShapeOutline& outline)
     : level_set{outline.dims, outline.spacing, outline.origin_body, {}},
       mass{outline.mass},
       bounding_radius{outline.bounding_radius},
-      lipschitz{outline.lipschitz} {}
+      lipschitz{outline.lipschitz},
+      sphere_radius{outline.sphere_radius} {}
 
 ShapeView::ShapeView(const Shape& shape)
     : level_set{shape.level_set},
@@ -86,6 +88,7 @@ ShapeView::ShapeView(const Shape& shape)
       clusters{shape.clusters},
       mass{shape.mass},
       bounding_radius{shape.bounding_radius},
-      lipschitz{shape.lipschitz} {}
+      lipschitz{shape.lipschitz},
+      sphere_radius{shape.sphere_radius} {}
 
 }  // namespace reckon

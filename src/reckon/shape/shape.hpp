@@ -68,6 +68,8 @@ struct Shape {
   ShapeDescriptors descriptors;
   double bounding_radius{0};  ///< no point with phi < 0 and no node lies farther out [m]
   double lipschitz{1};        ///< see lipschitz_constant
+  /// Of a shape that is a sphere, so that contacts between two need no nodes; 0: it is none [m].
+  double sphere_radius{0};
 };
 
 inline constexpr std::uint32_t nodes_per_cluster = 16;
@@ -81,6 +83,7 @@ struct ShapeOutline {
   MassProperties mass;
   double bounding_radius{0};  ///< [m]
   double lipschitz{1};
+  double sphere_radius{0};  ///< see Shape [m]
 
   [[nodiscard]] std::uint64_t values() const {
     return static_cast<std::uint64_t>(dims[0]) * static_cast<std::uint64_t>(dims[1]) *
@@ -107,6 +110,7 @@ struct ShapeView {
   MassProperties mass;
   double bounding_radius{0};
   double lipschitz{1};
+  double sphere_radius{0};  ///< see Shape [m]
 
   [[nodiscard]] Vec3 node(std::size_t n) const { return {node_x[n], node_y[n], node_z[n]}; }
 

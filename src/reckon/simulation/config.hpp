@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "reckon/boundary/membrane.hpp"
 #include "reckon/boundary/wall.hpp"
 #include "reckon/boundary/wall_control.hpp"
 #include "reckon/contact/contact_settings.hpp"
@@ -83,6 +84,19 @@ struct WallConfig {
   std::optional<WallMotion> motion;
 };
 
+/// A flexible membrane that takes the place of a cylinder wall; see boundary/membrane.hpp.
+struct MembraneConfig {
+  std::string mould;         ///< the cylinder wall
+  double spacing{0};         ///< between nodes [m], > 0, no default
+  double modulus{1.5e6};     ///< Young's modulus [Pa], > 0: that of latex
+  double thickness{0.3e-3};  ///< [m], > 0
+  double friction{0};        ///< Coulomb coefficient with grains, >= 0
+  /// Stiffness of grains on it per area [N/m^3]; law area: a tenth of the contact's by default.
+  std::optional<double> normal_stiffness;
+  MembraneEnds ends{MembraneEnds::sealed};
+  std::optional<double> damping;  ///< of its nodes [1/s]; default: a hundredth per time step
+};
+
 /// Where grains leave the simulation: behind a plane, or outside a box.
 struct OutflowConfig {
   std::variant<PlaneConfig, BoxConfig> geometry;
@@ -140,6 +154,12 @@ struct ControlConfig {
   std::optional<double> rate_limit;  ///< stress: [1/s]; io fills it in
 };
 
+/// The pressure around the membrane during a stage.
+struct MembranePressureConfig {
+  double pressure{0};  ///< [Pa]
+  double ramp{0};      ///< how long it takes to get there from that of the stage before [s]
+};
+
 /// When a stage ends before its time: all that is given must hold at once.
 struct StageGoal {
   std::optional<double> unbalanced_ratio;  ///< below
@@ -162,6 +182,8 @@ struct StageConfig {
   std::optional<double> damping;  ///< [1/s]
   std::optional<std::uint64_t> history_interval;
   std::optional<std::uint64_t> fields_interval;
+  /// From the first stage on that has it, the membrane is in place.
+  std::optional<MembranePressureConfig> membrane;
   std::vector<ControlConfig> controls;
 };
 
@@ -192,6 +214,7 @@ struct SceneConfig {
   ContactConfig contact;
   BodyForceConfig body;
   std::vector<WallConfig> walls;
+  std::optional<MembraneConfig> membrane;
   std::vector<OutflowConfig> outflows;
   std::vector<GrainsConfig> grains;
   std::vector<StageConfig> stages;

@@ -114,6 +114,7 @@ SimulationState Simulation::state() {
   if (ranks.is_root()) {
     state.driven_walls = driven_walls_;
     state.stage_starts = stage_starts_;
+    if (membrane() != nullptr) state.membrane = membrane_->state();
   }
   std::sort(state.departed.begin(), state.departed.end(),
             [](const DepartedGrain& a, const DepartedGrain& b) { return a.grain.id < b.grain.id; });
@@ -161,6 +162,12 @@ std::vector<ContactRecord> Simulation::contacts() {
                        foot_on_wall(setup_.walls[candidate.wall.get()],
                                     wall_contacts_.poses()[candidate.wall.get()], center),
                        force.force, force.deepest, force.touching});
+  }
+  for (const MembraneForce& force : membrane_contacts_.forces()) {
+    if (force.touching == 0) continue;
+    records.push_back(
+        {grains_.id[force.slot], true, static_cast<std::uint32_t>(setup_.walls.size()),
+         grains_.position[force.slot], force.place, force.force, force.deepest, force.touching});
   }
   records = gather(distribution_.ranks(), records);
   std::sort(records.begin(), records.end(), [](const ContactRecord& r, const ContactRecord& s) {

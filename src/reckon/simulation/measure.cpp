@@ -15,17 +15,17 @@ namespace {
 struct Sums {
   ExactSum translation, rotation, gravity, elastic;
   ExactSum friction, dashpot, damping, body_work, wall_work, departed_energy;
-  ExactSum net_force, contact_force;
+  ExactSum net_force, contact_force, stretch;
   ExactVec3 momentum;
   std::vector<ExactVec3> on_walls;
   std::int64_t grains{0}, departed{0}, contacts{0}, wall_contacts{0}, touching_nodes{0};
 
   /// Adds up what all ranks hold, digit by digit.
   void reduce(const Communicator& ranks) {
-    std::vector<ExactSum*> exact{&translation, &rotation,   &gravity,        &elastic,
-                                 &friction,    &dashpot,    &damping,        &body_work,
-                                 &wall_work,   &net_force,  &contact_force,  &momentum.x,
-                                 &momentum.y,  &momentum.z, &departed_energy};
+    std::vector<ExactSum*> exact{&translation, &rotation,   &gravity,         &elastic,
+                                 &friction,    &dashpot,    &damping,         &body_work,
+                                 &wall_work,   &net_force,  &contact_force,   &momentum.x,
+                                 &momentum.y,  &momentum.z, &departed_energy, &stretch};
     for (ExactVec3& wall : on_walls) wall.list(exact);
     std::array<std::int64_t, 5> counts{grains, contacts, wall_contacts, touching_nodes, departed};
     add_up(ranks, exact, counts);
@@ -105,6 +105,24 @@ Measurement Simulation::measure() {
     sums.on_walls[wall_contacts_.candidates()[c].wall.get()].add(-wall.force);
     result.deepest_overlap = std::max(result.deepest_overlap, wall.deepest);
   }
+  for (const MembraneForce& force : membrane_contacts_.forces()) {
+    if (force.touching == 0) continue;
+    ++sums.wall_contacts;
+    sums.touching_nodes += force.touching;
+    sums.elastic.add(force.elastic);
+    sums.contact_force.add(norm(force.force));
+    result.deepest_overlap = std::max(result.deepest_overlap, force.deepest);
+  }
+  // All ranks hold the whole membrane.
+  const std::uint32_t told = membrane() != nullptr && distribution_.ranks().is_root()
+                                 ? static_cast<std::uint32_t>(membrane_->nodes().size())
+                                 : 0;
+  for (std::uint32_t node = 0; node < told; ++node) {
+    sums.translation.add(membrane_->kinetic_energy(node, setup_.time_step));
+    sums.elastic.add(membrane_->bond_energy(node));
+    sums.stretch.add(membrane_->bond_energy(node));
+    add_ledger(sums, membrane_->ledger(node));
+  }
   for (const DepartedGrain& gone : departed_) {
     const MassProperties& form = shapes_[gone.grain.shape.get()].mass;
     const double mass = setup_.density * form.volume;
@@ -129,6 +147,13 @@ Measurement Simulation::measure() {
   result.energy = budget(sums);
   result.momentum = sums.momentum.value();
   for (const ExactVec3& force : sums.on_walls) result.wall_force.push_back(force.value());
+  if (membrane() != nullptr) {
+    result.membrane_pressure = membrane_->pressure();
+    result.membrane_stretch = sums.stretch.value();
+    for (std::uint32_t node = 0; node < membrane_->nodes().size(); ++node) {
+      if (membrane_->is_touched(node)) ++result.membrane_nodes;
+    }
+  }
   const auto touching_pairs = static_cast<double>(sums.contacts + sums.wall_contacts);
   const auto grain_count = static_cast<double>(sums.grains);
   if (grain_count > 0) {

@@ -41,12 +41,15 @@ struct Measurement {
   std::uint64_t contacts{0};       ///< touching pairs of grains
   std::uint64_t wall_contacts{0};  ///< touching pairs of grain and wall
   std::uint64_t touching_nodes{0};
-  double coordination{0};        ///< contacts per grain, walls included
-  double unbalanced_ratio{0};    ///< mean net force on a grain / mean contact force
-  double deepest_overlap{0};     ///< [m]
-  double largest_speed{0};       ///< [m/s]
-  Vec3 momentum;                 ///< [kg m/s]
-  std::vector<Vec3> wall_force;  ///< of the grains on each wall [N]
+  double coordination{0};           ///< contacts per grain, walls included
+  double unbalanced_ratio{0};       ///< mean net force on a grain / mean contact force
+  double deepest_overlap{0};        ///< [m]
+  double largest_speed{0};          ///< [m/s]
+  Vec3 momentum;                    ///< [kg m/s]
+  std::vector<Vec3> wall_force;     ///< of the grains on each wall [N]
+  double membrane_pressure{0};      ///< [Pa]
+  double membrane_stretch{0};       ///< energy in its bonds, part of `elastic` [J]
+  std::uint64_t membrane_nodes{0};  ///< of it that touch a grain
 
   friend bool operator==(const Measurement&, const Measurement&) = default;
 };

@@ -51,7 +51,39 @@ std::vector<std::pair<std::string, WallSurface>> surfaces(const WallConfig& wall
   return {sides.begin(), sides.end()};
 }
 
+/// Of the membrane's nodes: leapfrog keeps their fastest oscillations stable with a wide margin.
+constexpr double membrane_phase = 0.5;     // radians per step
+constexpr double membrane_damping = 0.01;  // per step, unless given
+constexpr double membrane_dashpot = 0.3;   // of what would be critical for a node alone
+constexpr double membrane_softness = 0.1;  // of the stiffness of grains, unless given
+
 }  // namespace
+
+std::optional<MembraneSetup> make_membrane(const SceneConfig& scene, std::span<const Wall> walls,
+                                           double time_step) {
+  if (!scene.membrane) return std::nullopt;
+  const MembraneConfig& config = *scene.membrane;
+  MembraneSetup setup;
+  for (std::uint32_t w = 0; w < walls.size(); ++w) {
+    if (walls[w].name == config.mould) setup.mould = WallId{w};
+  }
+  setup.spacing = config.spacing;
+  setup.bond_stiffness = membrane_bond_stiffness(config.modulus * config.thickness);
+  setup.contact.normal_stiffness =
+      config.normal_stiffness.value_or(membrane_softness * scene.contact.normal_stiffness);
+  setup.contact.shear_stiffness = setup.contact.normal_stiffness;
+  setup.friction = config.friction;
+  setup.ends = config.ends;
+  setup.damping = config.damping.value_or(membrane_damping / time_step);
+  double highest = 0;
+  for (const StageConfig& stage : scene.stages) {
+    if (stage.membrane) highest = std::max(highest, std::abs(stage.membrane->pressure));
+  }
+  setup.areal_mass = membrane_areal_mass(setup, highest, time_step, membrane_phase);
+  setup.contact.viscosity =
+      2 * membrane_dashpot * std::sqrt(setup.contact.normal_stiffness * setup.areal_mass);
+  return setup;
+}
 
 std::vector<Wall> make_walls(const SceneConfig& scene) {
   std::vector<Wall> walls;
@@ -91,6 +123,8 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
   for (const ShapeSummary& shape : scene.shapes) {
     smallest_radius = std::min(smallest_radius, shape.outline.bounding_radius);
     outlines.push_back(shape.outline);
+    // Law `linear` counts nodes: only all of them mean what it says.
+    if (config.contact.law == ContactLawKind::linear) outlines.back().sphere_radius = 0;
   }
   prepared.setup = {
       .shapes = ShapeStore{ranks, std::move(outlines), scene.read_shape},
@@ -100,6 +134,7 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
                            config.contact.node_cap.value_or(0), false),
                   config.material.friction, config.contact.master},
       .walls = make_walls(config),
+      .membrane = {},
       .outflows = outflow_planes(config),
       .body_force = {config.body.gravity, config.body.random_acceleration,
                      config.body.random_interval, config.seed, scene.own_accelerations},
@@ -111,6 +146,7 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
       .simd = resolve(config.neighbor.simd),
       .decomposition = config.parallel.decomposition,
   };
+  prepared.setup.membrane = make_membrane(config, prepared.setup.walls, prepared.time_step.step);
   prepared.setup.stages = make_stages(config, prepared.setup.walls);
   prepared.initial.grains = scene.grains;
   prepared.steps = config.time.steps.value_or(static_cast<std::uint64_t>(

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,12 @@ struct PreparedScene {
 
 /// The walls of a scene; boxes are six of them, or five.
 [[nodiscard]] std::vector<Wall> make_walls(const SceneConfig& scene);
+
+/// The membrane of a scene whose mould is one of the walls. Its mass, and what the scene leaves
+/// open of its stiffness and damping, follow from the time step.
+[[nodiscard]] std::optional<MembraneSetup> make_membrane(const SceneConfig& scene,
+                                                         std::span<const Wall> walls,
+                                                         double time_step);
 
 /// Turns config into walls, laws and a time step. `scene.config` is already validated. Collective:
 /// all ranks pass the same scene, but only the root's grains count.

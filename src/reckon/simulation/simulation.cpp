@@ -41,6 +41,7 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
                     total_count(ranks, state.grains.size() + state.departed.size())},
       grain_contacts_{setup_.contact, setup_.engine, setup_.simd},
       wall_contacts_{setup_.walls, setup_.engine, setup_.simd},
+      membrane_contacts_{setup_.engine},
       step_{root_step(ranks, state.step)},
       budget_{MotionBudget::with(setup_.skin, setup_.time_step)} {
   for (const ShapeView& shape : shapes_) {
@@ -50,6 +51,7 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
   grain_contacts_.adopt(state.pair_springs);
   wall_contacts_.adopt(state.wall_springs);
   departed_ = state.departed;
+  take_over_membrane(state);
   take_over_walls_and_stages(state);
   costs_.assign(grains_.size(), 1.0);
 }
@@ -62,6 +64,7 @@ void Simulation::step() {
   phase_times_.loads += watch.lap();
   advance_grains();
   advance_walls();
+  if (membrane() != nullptr) membrane_->advance(setup_.time_step);
   commit_springs();
   ++step_;
   count_work();
@@ -76,6 +79,7 @@ void Simulation::bring_up_to_date() {
   receive_ghosts();
   Stopwatch watch;
   wall_contacts_.move_walls(driven_walls_, step_, setup_.time_step);
+  if (membrane() != nullptr) membrane_->follow(wall_contacts_.poses());
   if (lists_are_stale_) {
     let_grains_out();
     distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_, costs_,
@@ -174,6 +178,7 @@ void Simulation::rebuild_lists() {
   grain_contacts_.rebuild(distribution_.find_pairs(frames_, budget_, grains_.size()),
                           frames_.size());
   wall_contacts_.rebuild(owned_frames(), budget_);
+  membrane_contacts_.forget();
   listed_grains_.clear();
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
     listed_grains_.push_back({grains_.position[slot], budget_.of(grains_.velocity[slot])});
@@ -213,6 +218,8 @@ void Simulation::evaluate_contacts() {
     watch = {};
   });
   phase_times_.grain_contacts += watch.lap();
+  evaluate_membrane();
+  phase_times_.wall_contacts += watch.lap();
 }
 
 /// The largest of all ranks for the lists about to be made [m].
@@ -246,6 +253,7 @@ void Simulation::agree_on_what_comes() {
                     if (!motion_is_finite(slot)) return failed;
                     return is_out(slot) ? stale : fine;
                   }));
+  if (membrane() != nullptr && !membrane_->is_finite()) news = failed;
   news = distribution_.ranks().max(news);
   lists_are_stale_ = news >= stale;
   if (news >= failed) fail_on_motion();
@@ -255,6 +263,7 @@ void Simulation::sum_loads(std::span<EnergyLedger> ledgers) {
   contact_loads_.assign(grains_.size(), Load{});
   grain_contacts_.add_loads(contact_loads_, ledgers);
   wall_contacts_.add_loads(contact_loads_, ledgers);
+  if (membrane() != nullptr) membrane_contacts_.add_loads(contact_loads_, ledgers);
 }
 
 /// Acceleration by body forces other than gravity [m/s^2].
@@ -320,7 +329,10 @@ void Simulation::fail_on_motion() const {
     }
   }
   first_bad = distribution_.ranks().max(first_bad);
-  throw Error{{.place = fmt::format("grain {:.0f}, step {}", std::abs(first_bad), step_),
+  const std::string who = std::isfinite(first_bad)
+                              ? fmt::format("grain {:.0f}", std::abs(first_bad))
+                              : std::string{"the membrane"};
+  throw Error{{.place = fmt::format("{}, step {}", who, step_),
                .problem = "its motion is no longer a number",
                .reason = "forces grew without bound, most often because the time step is too large "
                          "for the stiffness or grains overlapped deeply at the start",

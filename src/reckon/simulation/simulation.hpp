@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "reckon/boundary/membrane.hpp"
+#include "reckon/boundary/membrane_contacts.hpp"
 #include "reckon/boundary/wall_contacts.hpp"
 #include "reckon/boundary/wall_control.hpp"
 #include "reckon/contact/grain_contacts.hpp"
@@ -22,6 +24,12 @@
 
 namespace reckon {
 
+/// The pressure around a membrane during a stage.
+struct MembranePressure {
+  double pressure{0};  ///< [Pa]
+  double ramp{0};      ///< how long it takes to get there [s]
+};
+
 /// What holds for one stage of a test.
 struct StageSetup {
   std::string name;
@@ -30,6 +38,7 @@ struct StageSetup {
   Vec3 gravity;                       ///< [m/s^2]
   double damping{0};                  ///< global damping xi [1/s]
   std::vector<WallControl> controls;
+  std::optional<MembranePressure> membrane;  ///< none: not in place yet
 };
 
 /// What stays the same from the first step to the last.
@@ -38,7 +47,8 @@ struct SimulationSetup {
   double density{0};  ///< [kg/m^3]
   ContactSettings contact;
   std::vector<Wall> walls;
-  std::vector<PlaneSurface> outflows;  ///< a grain whose centre is behind one leaves
+  std::optional<MembraneSetup> membrane;  ///< takes its place with the first stage that has it
+  std::vector<PlaneSurface> outflows;     ///< a grain whose centre is behind one leaves
   BodyForce body_force;
   double damping{0};    ///< global damping xi [1/s]
   double time_step{0};  ///< [s]
@@ -69,6 +79,7 @@ struct SimulationState {
   /// The step at which each stage so far began; the last is under way. Empty without stages, and
   /// at the start.
   std::vector<std::uint64_t> stage_starts;
+  MembraneState membrane;
 
   friend bool operator==(const SimulationState&, const SimulationState&) = default;
 };
@@ -77,8 +88,9 @@ struct SimulationState {
 struct ContactRecord {
   GrainId grain;
   bool with_wall{false};
-  std::uint32_t partner{0};  ///< the other grain's id, or the wall's place in the scene
-  Vec3 from;                 ///< the grain's centre [m]
+  /// The other grain's id, or the wall's place in the scene; the membrane comes after all walls.
+  std::uint32_t partner{0};
+  Vec3 from;          ///< the grain's centre [m]
   Vec3 to;            ///< the partner's centre, or the foot of the grain's centre on the wall
   Vec3 force;         ///< on `grain` [N]
   double deepest{0};  ///< largest penetration of a node [m]
@@ -129,8 +141,15 @@ class Simulation {
   [[nodiscard]] std::span<const std::uint64_t> stage_starts() const { return stage_starts_; }
   /// What controls have made of the walls.
   [[nodiscard]] std::span<const DrivenWall> driven_walls() const { return driven_walls_; }
-  /// The walls where the stage under way began.
-  [[nodiscard]] std::vector<WallPose> poses_at_stage_start() const;
+  /// The membrane where it has taken its place, else nothing.
+  [[nodiscard]] const Membrane* membrane() const {
+    return membrane_ && membrane_->in_place() ? &*membrane_ : nullptr;
+  }
+  [[nodiscard]] const MembraneContacts& membrane_contacts() const { return membrane_contacts_; }
+  /// The space that walls, or walls and membrane, close off as of the last evaluation, and where
+  /// the stage under way began. Nothing where they do not, or its volume is not known.
+  [[nodiscard]] std::optional<Enclosure> space() const;
+  [[nodiscard]] std::optional<Enclosure> space_at_stage_start() const;
   /// What the walls feel as of the last evaluation, summed over all ranks. Collective.
   [[nodiscard]] std::vector<WallReaction> wall_reactions() const;
   /// Where the grains of this rank are, then its ghosts, as of the last evaluation.
@@ -159,7 +178,11 @@ class Simulation {
   }
   void sum_loads(std::span<EnergyLedger> ledgers);
   void take_over_walls_and_stages(const SimulationState& state);
+  void take_over_membrane(const SimulationState& state);
   void apply_stage();
+  void let_membrane_take_place();
+  [[nodiscard]] double membrane_pressure() const;
+  void evaluate_membrane();
   void advance_grains();
   void advance_walls();
   void commit_springs();
@@ -184,6 +207,8 @@ class Simulation {
   std::vector<Load> contact_loads_;
   GrainContacts grain_contacts_;
   WallContacts wall_contacts_;
+  std::optional<Membrane> membrane_;  // the same on all ranks
+  MembraneContacts membrane_contacts_;
   std::vector<DepartedGrain> departed_;  // on this rank
   std::uint64_t step_{0};
   std::vector<DrivenWall> driven_walls_;  // the same on all ranks

@@ -75,6 +75,11 @@ std::vector<StageSetup> make_stages(const SceneConfig& scene, std::span<const Wa
                      .friction = config.friction.value_or(scene.material.friction),
                      .gravity = config.gravity.value_or(scene.body.gravity),
                      .damping = config.damping.value_or(scene.body.damping)};
+    if (config.membrane) {
+      stage.membrane = MembranePressure{config.membrane->pressure, config.membrane->ramp};
+    } else if (!stages.empty() && stages.back().membrane) {
+      stage.membrane = MembranePressure{stages.back().membrane->pressure, 0};
+    }
     for (const Wall& wall : walls) {
       stage.wall_friction.push_back(config.wall_friction.value_or(wall.friction));
     }

@@ -42,10 +42,16 @@ void Simulation::apply_stage() {
   wall_contacts_.set_friction(now->wall_friction);
   setup_.body_force.gravity = now->gravity;
   setup_.damping = now->damping;
+  if (now->membrane && membrane() == nullptr) let_membrane_take_place();
 }
 
 void Simulation::begin_next_stage() {
   const Vec3 gravity_before = setup_.body_force.gravity;
+  if (membrane_) {  // what it, or its mould, holds at this very step
+    bring_up_to_date();
+    evaluate_contacts();
+  }
+  if (membrane() != nullptr) membrane_->begin_stage(membrane_pressure());
   stage_starts_.push_back(step_);
   for (DrivenWall& wall : driven_walls_) wall.displacement_at_stage_start = wall.displacement;
   apply_stage();
@@ -61,11 +67,17 @@ void Simulation::begin_next_stage() {
   }
 }
 
-std::vector<WallPose> Simulation::poses_at_stage_start() const {
+std::optional<Enclosure> Simulation::space() const {
+  if (membrane() != nullptr) return membrane_->enclosure(setup_.walls.size());
+  return enclosure_of(setup_.walls, wall_contacts_.poses());
+}
+
+std::optional<Enclosure> Simulation::space_at_stage_start() const {
+  if (membrane() != nullptr) return membrane_->enclosure_at_stage_start(setup_.walls.size());
   std::vector<DrivenWall> then = driven_walls_;
   for (DrivenWall& wall : then) wall = {wall.displacement_at_stage_start, {}, {}};
-  return poses_at(setup_.walls, then, stage_starts_.empty() ? 0 : stage_starts_.back(),
-                  setup_.time_step);
+  const std::uint64_t start = stage_starts_.empty() ? 0 : stage_starts_.back();
+  return enclosure_of(setup_.walls, poses_at(setup_.walls, then, start, setup_.time_step));
 }
 
 std::vector<WallReaction> Simulation::wall_reactions() const {
@@ -102,8 +114,8 @@ void Simulation::advance_walls() {
   }
   std::optional<Enclosure> space;
   if (!std::all_of(now->controls.begin(), now->controls.end(), is(WallTarget::speed))) {
-    space = enclosure_of(setup_.walls, wall_contacts_.poses());
-    if (!space) {
+    space = this->space();
+    if (!space || !(space->volume > 0)) {
       throw Error{{.place = "stage " + now->name,
                    .problem = "the walls no longer close off a space",
                    .reason = "controlled planes have passed each other, as they do when grains "

@@ -49,6 +49,17 @@ Checkpoint awkward_checkpoint() {
       {GrainId{0}, GrainId{1}, {spring(3, false), spring(9, false), spring(2, true)}},
       {GrainId{1}, GrainId{4294967295U}, {spring(5, true)}}};
   checkpoint.state.wall_springs = {{GrainId{1}, WallId{2}, {spring(8, false)}}};
+  checkpoint.state.membrane = {.start = {vector(), vector(), number(), number()},
+                               .floor = WallId{1},
+                               .lid = WallId{2},
+                               .floor_start = vector(),
+                               .lid_start = vector(),
+                               .nodes = {{vector(), vector(), {number(), 0, number(), 0, number()}},
+                                         {vector(), vector(), {}}},
+                               .springs = {{1, GrainId{1}, vector(), vector()}},
+                               .pressure_before = number(),
+                               .volume_at_stage_start = number(),
+                               .height_at_stage_start = number()};
   return checkpoint;
 }
 
@@ -70,6 +81,7 @@ TEST_F(CheckpointTest, ReadsBackTheSameBits) {
   EXPECT_EQ(read.state.pair_springs[0].springs, written.state.pair_springs[0].springs);
   EXPECT_EQ(read.state.pair_springs[1].id_b, GrainId{4294967295U});
   EXPECT_EQ(read.state.wall_springs[0].springs, written.state.wall_springs[0].springs);
+  EXPECT_EQ(read.state.membrane, written.state.membrane);
   EXPECT_EQ(read.time_step, written.time_step);
   EXPECT_TRUE(std::signbit(read.energy_at_start));
   EXPECT_EQ(read.scene, written.scene);

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "reckon/contact/touch.hpp"
+#include "reckon/grains/grain_frame.hpp"
+
+namespace reckon {
+
+/// Whether touches of these two need no nodes.
+[[nodiscard]] inline bool are_spheres(const GrainFrame& a, const GrainFrame& b) {
+  return a.shape->sphere_radius > 0 && b.shape->sphere_radius > 0;
+}
+
+/// Two spheres. Appends what stands for all nodes of the master that touch, if any do, and returns
+/// the distance between the surfaces [m].
+///
+/// For a small overlap d the cap of the master in the slave has the area 2 pi R* d, over which the
+/// depth is spread evenly from 0 to d, with 1/R* = 1/R_a + 1/R_b. Two nodes on the line of centres
+/// that share the area, at the depths of Gauss and Legendre's two points, have its area, volume and
+/// integral of the squared depth: laws `area` and `hertz` get the force pi k_n R* d^2 and
+/// 4/3 E* sqrt(R*) d^(3/2), and the first the energy pi/3 k_n R* d^3, to rounding. The nodes are
+/// where the plane of the circle in which the spheres meet cuts that line.
+inline double touch_spheres(const GrainFrame& master, const GrainFrame& slave,
+                            std::vector<Touch>& touches) {
+  const double r = master.shape->sphere_radius;
+  const double other = slave.shape->sphere_radius;
+  const Vec3 apart = master.position - slave.position;
+  const double distance = norm(apart);
+  const double overlap = r + other - distance;
+  if (!(overlap > 0) || !(distance > 0)) return -overlap;
+  const Vec3 normal = apart / distance;
+  const double to_plane = 0.5 * (distance + (r - other) * (r + other) / distance);
+  const Vec3 lever = -to_plane * normal;
+  const double area = 0.5 * (2 * std::numbers::pi) * (r * other / (r + other)) * overlap;
+  constexpr double gauss = 0.5 * std::numbers::inv_sqrt3;
+  touches.push_back({0, -(0.5 + gauss) * overlap, normal, lever, area});
+  touches.push_back({1, -(0.5 - gauss) * overlap, normal, lever, area});
+  return -overlap;
+}
+
+}  // namespace reckon
