@@ -30,7 +30,7 @@ enum class Answer { accepted, refused, broken };
 
 /// Reads one input; an exception that is no reckon::Error fails the test and keeps the input.
 Answer answer(const Target& target, const std::string& input, const std::string& what) {
-  const std::string kept = "failed_" + target.name;
+  const std::string kept = std::string{RECKON_FUZZ_KEPT} + "/failed_" + target.name;
   try {
     const Guard guard{kept, input, longest_case};
     target.read(input);
@@ -42,7 +42,7 @@ Answer answer(const Target& target, const std::string& input, const std::string&
     ADD_FAILURE() << what << ": no reckon::Error, but: " << error.what();
   }
   std::ofstream{kept, std::ios::binary} << input;
-  ADD_FAILURE() << "the input is kept in " << std::filesystem::absolute(kept);
+  ADD_FAILURE() << "the input is kept in " << kept;
   return Answer::broken;
 }
 

@@ -101,6 +101,7 @@ double inscribed_radius(const TriangleBvh& bvh, const LevelSetView& grid) {
                                                      static_cast<double>(k)};
   double deepest = -bvh.signed_distance(best);
   const auto consider = [&](const Vec3& p) {
+    if (bvh.any_within(p, std::max(deepest, 0.0))) return false;
     const double depth = -bvh.signed_distance(p);
     if (!(depth > deepest)) return false;
     best = p;
@@ -160,9 +161,10 @@ ShapeDescriptors describe_shape(const TriangleMesh& body_mesh, const TriangleBvh
   d.flatness = d.thickness / d.width;
   d.sphericity = std::numbers::pi * d.equivalent_diameter * d.equivalent_diameter / d.surface_area;
   d.convexity = std::min(1.0, solid.volume / convex_hull_volume(body_mesh.vertices));
+  const std::vector<std::uint32_t> order = bvh.tree_order();
   d.roundness =
-      wadell_roundness(sample_surface(body_mesh, curvature_samples), inscribed_radius(bvh, grid),
-                       curvature_reach * d.equivalent_diameter);
+      wadell_roundness(sample_surface({body_mesh, order}, curvature_samples),
+                       inscribed_radius(bvh, grid), curvature_reach * d.equivalent_diameter);
   return d;
 }
 

@@ -54,6 +54,6 @@ inline constexpr double largest_grid = 1e9;  ///< vertices
 /// The part of building that needs no mesh distances: nodes, areas, clusters, Lipschitz constant
 /// and bounding radius for a grid whose surface is also known as a mesh in the same body frame.
 void add_nodes(Shape& shape, const TriangleMesh& body_mesh, const TriangleBvh& bvh,
-               double surface_area, std::size_t node_count);
+               std::size_t node_count);
 
 }  // namespace reckon

@@ -6,22 +6,32 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "reckon/shape/node_order.hpp"
 
 namespace reckon {
 namespace {
 
-constexpr std::size_t samples_per_point = 48;
-constexpr int relaxation_rounds = 50;
-// Each point goes farther than to the middle of its share, which settles long waves sooner.
-constexpr double over_relaxation = 1.7;
-constexpr int over_relaxed_rounds = 45;
+/// A part of the relaxation. The first settles where points go, the second evens them out.
+struct Stage {
+  std::size_t samples_per_point;
+  int rounds;
+  // Each point goes so much farther than to the middle of its share, which settles long waves
+  // sooner.
+  double over_relaxation;
+};
+using Stages = std::array<Stage, 2>;
+constexpr Stages for_few_points{Stage{24, 24, 1.7}, Stage{48, 12, 1.4}};
+constexpr Stages for_many_points{Stage{10, 10, 1.7}, Stage{32, 4, 1.4}};
+constexpr std::size_t few_points = 2000;
+constexpr int rounds_per_look_around = 4;  // after which neighbours are sought anew
+constexpr double neighbour_reach = 2;      // [mean spacings]
 constexpr double opposite_cosine = -0.5;
 
-Vec3 area_vector(const TriangleMesh& mesh, const TriangleMesh::Triangle& t) {
+double triangle_area(const TriangleMesh& mesh, const TriangleMesh::Triangle& t) {
   const Vec3& a = mesh.vertices[t[0]];
-  return 0.5 * cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
+  return 0.5 * norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
 }
 
 /// Finds the nearest of some oriented points, by cells of about one point each.
@@ -59,6 +69,29 @@ class NearestPoint {
     });
     if (facing.squared_distance < std::numeric_limits<double>::infinity()) return facing.point;
     return search(position, [](std::uint32_t) { return true; }).point;
+  }
+
+  /// Calls visit(point, squared distance) for all within `radius`, in an order of its own.
+  template <class Visit>
+  void for_each_within(const Vec3& position, double radius, Visit&& visit) const {
+    const Vec3 reach{radius, radius, radius};
+    std::array<int, 3> low{};
+    std::array<int, 3> high{};
+    for (int axis = 0; axis < 3; ++axis) {
+      low[static_cast<std::size_t>(axis)] = coordinate(position - reach, axis);
+      high[static_cast<std::size_t>(axis)] = coordinate(position + reach, axis);
+    }
+    for (int k = low[2]; k <= high[2]; ++k) {
+      for (int j = low[1]; j <= high[1]; ++j) {
+        // The cells of a row lie behind each other.
+        const std::uint32_t first = first_[cell_index(low[0], j, k)];
+        const std::uint32_t last = first_[cell_index(high[0], j, k) + 1];
+        for (std::uint32_t m = first; m < last; ++m) {
+          const double d2 = squared_norm(points_.position[members_[m]] - position);
+          if (d2 <= radius * radius) visit(members_[m], d2);
+        }
+      }
+    }
   }
 
  private:
@@ -130,7 +163,101 @@ class NearestPoint {
   std::vector<std::uint32_t> members_;  // points by cell
 };
 
+/// Finds the nearest of some points for places that are near each other, by walking from
+/// neighbour to neighbour.
+class NearestWalk {
+ public:
+  /// `area`: of the surface.
+  NearestWalk(const OrientedPoints& points, double area) : points_{points}, cells_{points} {
+    reach_ = neighbour_reach * std::sqrt(area / static_cast<double>(points.size()));
+    complete_.assign(points.size(), true);
+    first_.push_back(0);
+    for (std::uint32_t n = 0; n < points.size(); ++n) {
+      const auto begin = static_cast<std::ptrdiff_t>(neighbours_.size());
+      cells_.for_each_within(points.position[n], reach_, [&](std::uint32_t m, double d2) {
+        if (m == n) return;
+        if (facing(m, points.normal[n])) {
+          neighbours_.push_back({d2, m});
+        } else {
+          complete_[n] = false;
+        }
+      });
+      std::sort(neighbours_.begin() + begin, neighbours_.end());
+      first_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
+    }
+  }
+
+  /// What NearestPoint::find answers, but for ties; `start` is where the walk begins.
+  [[nodiscard]] std::uint32_t find(const Vec3& position, const Vec3& normal,
+                                   std::uint32_t start) const {
+    const std::uint32_t n = walk(position, normal, start);
+    // Whatever were nearer would be within the neighbours' reach of this one.
+    const double d2 = squared_norm(points_.position[n] - position);
+    const bool sure = complete_[n] && 4 * d2 <= reach_ * reach_ && facing(n, normal);
+    return sure ? n : cells_.find(position, normal);
+  }
+
+  /// A point that none of its neighbours is nearer than, as they were when they were sought.
+  [[nodiscard]] std::uint32_t walk(const Vec3& position, const Vec3& normal,
+                                   std::uint32_t start) const {
+    std::uint32_t here = start;
+    double d2 = squared_norm(points_.position[here] - position);
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (std::uint32_t i = first_[here]; i < first_[here + 1]; ++i) {
+        const Neighbour& next = neighbours_[i];
+        if (next.squared_distance > 4 * d2) break;  // it and all that follow are farther than here
+        const double next_d2 = squared_norm(points_.position[next.point] - position);
+        if (!(next_d2 < d2) || !facing(next.point, normal)) continue;
+        here = next.point;
+        d2 = next_d2;
+        moved = true;
+        break;
+      }
+    }
+    return here;
+  }
+
+ private:
+  struct Neighbour {
+    double squared_distance;
+    std::uint32_t point;
+
+    bool operator<(const Neighbour& other) const {
+      return squared_distance != other.squared_distance ? squared_distance < other.squared_distance
+                                                        : point < other.point;
+    }
+  };
+
+  [[nodiscard]] bool facing(std::uint32_t n, const Vec3& normal) const {
+    return dot(points_.normal[n], normal) >= opposite_cosine;
+  }
+
+  const OrientedPoints& points_;
+  NearestPoint cells_;
+  double reach_;
+  std::vector<bool> complete_;         // whether a point's neighbours are all that are within reach
+  std::vector<std::uint32_t> first_;   // of each point's neighbours
+  std::vector<Neighbour> neighbours_;  // of each point, by distance
+};
+
 }  // namespace
+
+SurfaceSampler::SurfaceSampler(const TriangleMesh& mesh, std::span<const std::uint32_t> order)
+    : mesh_{mesh}, order_{order} {
+  for (const std::uint32_t t : order) area_ += triangle_area(mesh, mesh.triangles[t]);
+}
+
+OrientedPoints sample_surface(const SurfaceSampler& sampler, std::size_t count) {
+  OrientedPoints samples;
+  samples.position.reserve(count);
+  samples.normal.reserve(count);
+  sampler.for_each(count, [&](const Vec3& position, const Vec3& normal) {
+    samples.position.push_back(position);
+    samples.normal.push_back(normal);
+  });
+  return samples;
+}
 
 OrientedPoints sample_surface(const TriangleMesh& mesh, std::size_t count) {
   std::vector<Vec3> centers;
@@ -139,90 +266,111 @@ OrientedPoints sample_surface(const TriangleMesh& mesh, std::size_t count) {
     centers.push_back((mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3);
   }
   const std::vector<std::uint32_t> order = compact_order(centers, 1);
-  double total = 0;
-  for (const std::uint32_t t : order) total += norm(area_vector(mesh, mesh.triangles[t]));
-
-  OrientedPoints samples;
-  samples.position.reserve(count);
-  samples.normal.reserve(count);
-  // The plastic number's powers: x^3 = x + 1.
-  constexpr double plastic = 1.32471795724474602596;
-  const double step_u = 1 / plastic;
-  const double step_v = 1 / (plastic * plastic);
-  double area_before = 0;
-  std::size_t k = 0;
-  for (std::size_t o = 0; o < order.size(); ++o) {
-    const auto& t = mesh.triangles[order[o]];
-    const Vec3 vector = area_vector(mesh, t);
-    const double area = norm(vector);
-    const Vec3 normal = normalized(vector);
-    const bool last = o + 1 == order.size();
-    for (;
-         k < count && (last || (static_cast<double>(k) + 0.5) / static_cast<double>(count) * total <
-                                   area_before + area);
-         ++k) {
-      const double index = static_cast<double>(k) + 1;
-      double u = index * step_u - std::floor(index * step_u);
-      double v = index * step_v - std::floor(index * step_v);
-      if (u + v > 1) {  // folding keeps the sequence's evenness, which a root would bend
-        u = 1 - u;
-        v = 1 - v;
-      }
-      const Vec3& a = mesh.vertices[t[0]];
-      samples.position.push_back(a + u * (mesh.vertices[t[1]] - a) + v * (mesh.vertices[t[2]] - a));
-      samples.normal.push_back(normal);
-    }
-    area_before += area;
-  }
-  return samples;
+  return sample_surface(SurfaceSampler{mesh, order}, count);
 }
 
-OrientedPoints spread_points(const TriangleMesh& mesh, const TriangleBvh& bvh, std::size_t count) {
-  const OrientedPoints samples = sample_surface(mesh, samples_per_point * count);
-  OrientedPoints points;
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::size_t sample = samples_per_point * n + samples_per_point / 2;
-    points.position.push_back(samples.position[sample]);
-    points.normal.push_back(samples.normal[sample]);
-  }
+namespace {
+
+/// Moves points towards the middles of their shares of the samples.
+void relax(OrientedPoints& points, const OrientedPoints& samples, double area, const Stage& stage) {
+  const std::size_t count = points.size();
+  std::vector<std::uint32_t> owner(samples.size());
   std::vector<Vec3> sum(count);
   std::vector<Vec3> normal_sum(count);
   std::vector<std::uint32_t> share(count);
-  for (int round = 0; round < relaxation_rounds; ++round) {
+  std::optional<NearestWalk> nearest;
+  for (int round = 0; round < stage.rounds; ++round) {
     std::fill(sum.begin(), sum.end(), Vec3{});
     std::fill(normal_sum.begin(), normal_sum.end(), Vec3{});
     std::fill(share.begin(), share.end(), 0U);
-    const NearestPoint nearest{points};
+    if (round % rounds_per_look_around == 0) nearest.emplace(points, area);
     for (std::size_t s = 0; s < samples.size(); ++s) {
-      const std::uint32_t n = nearest.find(samples.position[s], samples.normal[s]);
+      // Samples follow a curve: at first the last one's owner is a good guess.
+      owner[s] = round == 0 ? nearest->find(samples.position[s], samples.normal[s],
+                                            s == 0 ? 0 : owner[s - 1])
+                            : nearest->walk(samples.position[s], samples.normal[s], owner[s]);
+      const std::uint32_t n = owner[s];
       sum[n] += samples.position[s];
       normal_sum[n] += samples.normal[s];
       ++share[n];
     }
     for (std::size_t n = 0; n < count; ++n) {
       if (share[n] == 0) continue;
-      const Vec3 step = sum[n] / share[n] - points.position[n];
-      const double factor = round < over_relaxed_rounds ? over_relaxation : 1.0;
-      points.position[n] = bvh.closest_point(points.position[n] + factor * step).point;
+      points.position[n] += stage.over_relaxation * (sum[n] / share[n] - points.position[n]);
       points.normal[n] = normalized(normal_sum[n]);
     }
+  }
+}
+
+}  // namespace
+
+OrientedPoints spread_points(const SurfaceSampler& sampler, const TriangleBvh& bvh,
+                             std::size_t count) {
+  OrientedPoints points;
+  for (const Stage& stage : count <= few_points ? for_few_points : for_many_points) {
+    const OrientedPoints samples = sample_surface(sampler, stage.samples_per_point * count);
+    for (std::size_t n = points.size(); n < count; ++n) {
+      const std::size_t sample = stage.samples_per_point * n + stage.samples_per_point / 2;
+      points.position.push_back(samples.position[sample]);
+      points.normal.push_back(samples.normal[sample]);
+    }
+    relax(points, samples, sampler.area(), stage);
+  }
+  const double spacing = std::sqrt(sampler.area() / static_cast<double>(count));
+  for (Vec3& p : points.position) {
+    const auto near = bvh.closest_point_within(p, 0.5 * spacing);  // the same, only faster
+    p = near ? near->point : bvh.closest_point(p).point;
   }
   return points;
 }
 
+namespace {
+
+/// Counts whose samples are whose.
+class Shares {
+ public:
+  Shares(const OrientedPoints& points, double area)
+      : nearest_{points, area}, area_{area}, share_(points.size(), 0) {}
+
+  void add(const Vec3& position, const Vec3& normal) {
+    last_ = nearest_.find(position, normal, last_);  // samples follow a curve
+    ++share_[last_];
+    ++count_;
+  }
+  [[nodiscard]] std::vector<double> areas() const {
+    std::vector<double> areas;
+    areas.reserve(share_.size());
+    for (const std::uint32_t samples : share_) {
+      areas.push_back(area_ * samples / static_cast<double>(count_));
+    }
+    return areas;
+  }
+
+ private:
+  NearestWalk nearest_;
+  double area_;
+  std::vector<std::uint32_t> share_;
+  std::size_t count_{0};
+  std::uint32_t last_{0};
+};
+
+}  // namespace
+
 std::vector<double> tributary_areas(const OrientedPoints& points, const OrientedPoints& samples,
                                     double area) {
-  std::vector<std::uint32_t> share(points.size(), 0);
-  const NearestPoint nearest{points};
+  Shares shares{points, area};
   for (std::size_t s = 0; s < samples.size(); ++s) {
-    ++share[nearest.find(samples.position[s], samples.normal[s])];
+    shares.add(samples.position[s], samples.normal[s]);
   }
-  std::vector<double> areas;
-  areas.reserve(points.size());
-  for (const std::uint32_t samples_here : share) {
-    areas.push_back(area * samples_here / static_cast<double>(samples.size()));
-  }
-  return areas;
+  return shares.areas();
+}
+
+std::vector<double> tributary_areas(const OrientedPoints& points, const SurfaceSampler& sampler,
+                                    std::size_t count) {
+  Shares shares{points, sampler.area()};
+  sampler.for_each(count,
+                   [&](const Vec3& position, const Vec3& normal) { shares.add(position, normal); });
+  return shares.areas();
 }
 
 }  // namespace reckon

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,14 +21,34 @@ struct OrientedPoints {
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
 
-/// `count` points that each stand for an equal share of the surface: the triangles are lined up
-/// along a tree order, the line is cut into equal areas, and the place inside a triangle comes from
-/// the additive recurrence of Roberts' R2 sequence. No chance is involved.
+/// Points that each stand for an equal share of a surface: the triangles are lined up such that
+/// neighbours in the line are neighbours on the surface, the line is cut into equal areas, and the
+/// place inside a triangle comes from the additive recurrence of Roberts' R2 sequence. No chance is
+/// involved. Keeps references.
+class SurfaceSampler {
+ public:
+  /// `order`: all triangles in such a line, e.g. TriangleBvh::tree_order().
+  SurfaceSampler(const TriangleMesh& mesh, std::span<const std::uint32_t> order);
+
+  [[nodiscard]] double area() const { return area_; }
+
+  /// Calls visit(position, outward normal) for `count` points along the line.
+  template <class Visit>
+  void for_each(std::size_t count, Visit&& visit) const;
+
+ private:
+  const TriangleMesh& mesh_;
+  std::span<const std::uint32_t> order_;
+  double area_{0};
+};
+
+/// All of them, with an order of its own.
 [[nodiscard]] OrientedPoints sample_surface(const TriangleMesh& mesh, std::size_t count);
+[[nodiscard]] OrientedPoints sample_surface(const SurfaceSampler& sampler, std::size_t count);
 
 /// `count` points spread evenly on a surface: Lloyd's relaxation (each point moves to the middle of
-/// the samples that are nearest to it, and back onto the surface) from evenly spaced samples.
-[[nodiscard]] OrientedPoints spread_points(const TriangleMesh& mesh, const TriangleBvh& bvh,
+/// the samples that are nearest to it) from evenly spaced samples, and at last onto the surface.
+[[nodiscard]] OrientedPoints spread_points(const SurfaceSampler& sampler, const TriangleBvh& bvh,
                                            std::size_t count);
 
 /// Each point's share of a surface: the part of `samples` that is nearest to it, times `area`.
@@ -34,5 +56,40 @@ struct OrientedPoints {
 /// degrees: on a thin plate, that is a point of the other side. Sums to `area` (up to rounding).
 [[nodiscard]] std::vector<double> tributary_areas(const OrientedPoints& points,
                                                   const OrientedPoints& samples, double area);
+/// With `count` samples, which are not kept; the areas sum to the surface's.
+[[nodiscard]] std::vector<double> tributary_areas(const OrientedPoints& points,
+                                                  const SurfaceSampler& sampler, std::size_t count);
+
+template <class Visit>
+void SurfaceSampler::for_each(std::size_t count, Visit&& visit) const {
+  // The plastic number's powers: x^3 = x + 1.
+  constexpr double plastic = 1.32471795724474602596;
+  constexpr double step_u = 1 / plastic;
+  constexpr double step_v = 1 / (plastic * plastic);
+  const double share = area_ / static_cast<double>(count);
+  double area_before = 0;
+  std::size_t k = 0;
+  for (std::size_t o = 0; o < order_.size(); ++o) {
+    const TriangleMesh::Triangle& t = mesh_.triangles[order_[o]];
+    const Vec3& a = mesh_.vertices[t[0]];
+    const Vec3 to_b = mesh_.vertices[t[1]] - a;
+    const Vec3 to_c = mesh_.vertices[t[2]] - a;
+    const Vec3 doubled = cross(to_b, to_c);
+    area_before += 0.5 * norm(doubled);
+    const bool last = o + 1 == order_.size();
+    if (!last && !((static_cast<double>(k) + 0.5) * share < area_before)) continue;
+    const Vec3 normal = normalized(doubled);
+    for (; k < count && (last || (static_cast<double>(k) + 0.5) * share < area_before); ++k) {
+      const double index = static_cast<double>(k) + 1;
+      double u = index * step_u - std::floor(index * step_u);
+      double v = index * step_v - std::floor(index * step_v);
+      if (u + v > 1) {  // folding keeps the sequence's evenness, which a root would bend
+        u = 1 - u;
+        v = 1 - v;
+      }
+      visit(a + u * to_b + v * to_c, normal);
+    }
+  }
+}
 
 }  // namespace reckon

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
+#include <utility>
 
 #include "reckon/avatar/half_edges.hpp"
 #include "reckon/core/error.hpp"
@@ -71,6 +71,29 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
+/// The low 21 bits of a number, two zeros after each.
+std::uint64_t spaced_out(std::uint64_t bits) {
+  bits = (bits | bits << 32U) & 0x001f00000000ffffU;
+  bits = (bits | bits << 16U) & 0x001f0000ff0000ffU;
+  bits = (bits | bits << 8U) & 0x100f00f00f00f00fU;
+  bits = (bits | bits << 4U) & 0x10c30c30c30c30c3U;
+  return (bits | bits << 2U) & 0x1249249249249249U;
+}
+
+/// The place of a point of a box along Morton's curve.
+std::uint64_t curve_place(const Vec3& point, const BoundingBox& box) {
+  constexpr double cells = 2097151;  // 2^21 - 1
+  std::uint64_t place = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    // Halves, because the whole may be too large for a double.
+    const double extent = 0.5 * box.high[axis] - 0.5 * box.low[axis];
+    const double part = extent > 0 ? (0.5 * point[axis] - 0.5 * box.low[axis]) / extent : 0;
+    place |= spaced_out(static_cast<std::uint64_t>(cells * std::clamp(part, 0.0, 1.0)))
+             << static_cast<unsigned>(axis);
+  }
+  return place;
+}
+
 }  // namespace
 
 void BoundingBox::include(const Vec3& point) {
@@ -132,40 +155,25 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh) : triangles_{mesh.triangles} 
 
 void TriangleBvh::build_tree(const TriangleMesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  std::vector<BoundingBox> boxes(count);
   std::vector<Vec3> centers(count);
+  BoundingBox spread;
   for (std::uint32_t t = 0; t < count; ++t) {
-    for (const std::uint32_t v : mesh.triangles[t]) boxes[t].include(mesh.vertices[v]);
-    centers[t] = 0.5 * boxes[t].low + 0.5 * boxes[t].high;
+    const TriangleMesh::Triangle& corners = mesh.triangles[t];
+    centers[t] = mesh.vertices[corners[0]] / 3 + mesh.vertices[corners[1]] / 3 +
+                 mesh.vertices[corners[2]] / 3;
+    spread.include(centers[t]);
   }
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0U);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(count);
+  for (std::uint32_t t = 0; t < count; ++t) keyed[t] = {curve_place(centers[t], spread), t};
+  std::sort(keyed.begin(), keyed.end());
 
-  // A node is created as a leaf over a range of `order` and split until the range is small. Nodes
-  // are worked off in the order in which they were made, so the tree depends on the mesh alone.
+  // A node is created as a leaf over a range of the curve and halved until the range is small.
   nodes_.push_back({{}, 0, count});
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     const std::uint32_t first = nodes_[n].first;
     const std::uint32_t size = nodes_[n].count;
-    const auto begin = order.begin() + first;
-    const auto end = begin + size;
-    BoundingBox spread;
-    for (auto t = begin; t != end; ++t) {
-      nodes_[n].box.include(boxes[*t]);
-      spread.include(centers[*t]);
-    }
-    if (size <= triangles_per_leaf) {
-      std::sort(begin, end);
-      continue;
-    }
-    const Vec3 extent = spread.high - spread.low;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
-                     : extent.y >= extent.z                       ? 1
-                                                                  : 2;
+    if (size <= triangles_per_leaf) continue;
     const std::uint32_t half = size / 2;
-    std::nth_element(begin, begin + half, end, [&](std::uint32_t a, std::uint32_t b) {
-      return centers[a][axis] != centers[b][axis] ? centers[a][axis] < centers[b][axis] : a < b;
-    });
     nodes_[n].first = static_cast<std::uint32_t>(nodes_.size());
     nodes_[n].count = 0;
     nodes_.push_back({{}, first, half});
@@ -173,10 +181,20 @@ void TriangleBvh::build_tree(const TriangleMesh& mesh) {
   }
 
   leaves_.reserve(count);
-  for (const std::uint32_t t : order) {
+  for (const auto& [place, t] : keyed) {
     const TriangleMesh::Triangle& corners = mesh.triangles[t];
     leaves_.push_back(
         {{mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]}, t});
+  }
+  // Children come after their parents.
+  for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
+    if (node->count == 0) {
+      node->box.include(nodes_[node->first].box);
+      node->box.include(nodes_[node->first + 1].box);
+    }
+    for (std::uint32_t n = node->first; n < node->first + node->count; ++n) {
+      for (const Vec3& corner : leaves_[n].corners) node->box.include(corner);
+    }
   }
 }
 
@@ -256,6 +274,42 @@ std::optional<ClosestPoint> TriangleBvh::closest_point_within(const Vec3& point,
   search(point, best);
   if (best.triangle == std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
   return best;
+}
+
+bool TriangleBvh::any_within(const Vec3& point, double radius) const {
+  const double squared_radius = radius * radius;
+  std::array<std::uint32_t, max_depth> stack{};
+  std::size_t size = 1;
+  while (size > 0) {
+    const Node& node = nodes_[stack[--size]];
+    if (node.count == 0) {
+      std::uint32_t near = node.first;
+      std::uint32_t far = near + 1;
+      double near_distance = nodes_[near].box.squared_distance(point);
+      double far_distance = nodes_[far].box.squared_distance(point);
+      if (far_distance < near_distance) {
+        std::swap(near, far);
+        std::swap(near_distance, far_distance);
+      }
+      if (far_distance <= squared_radius) stack[size++] = far;
+      if (near_distance <= squared_radius) stack[size++] = near;
+      continue;
+    }
+    for (std::uint32_t n = node.first; n < node.first + node.count; ++n) {
+      const Leaf& leaf = leaves_[n];
+      const ClosestPoint found =
+          closest_point_on_triangle(point, leaf.corners[0], leaf.corners[1], leaf.corners[2]);
+      if (found.squared_distance <= squared_radius) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<std::uint32_t> TriangleBvh::tree_order() const {
+  std::vector<std::uint32_t> order;
+  order.reserve(leaves_.size());
+  for (const Leaf& leaf : leaves_) order.push_back(leaf.triangle);
+  return order;
 }
 
 Vec3 TriangleBvh::pseudo_normal(const ClosestPoint& closest) const {

@@ -49,9 +49,10 @@ struct ClosestPoint {
 [[nodiscard]] ClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a,
                                                      const Vec3& b, const Vec3& c);
 
-/// A bounding volume hierarchy over the triangles of a mesh: a binary tree of boxes, split at the
-/// median along the longest axis. Holds copies of what it needs; the mesh may go. All queries are
-/// const and may run in many threads at once; their answers do not depend on earlier ones.
+/// A bounding volume hierarchy over the triangles of a mesh: a binary tree of boxes, which halves
+/// the triangles as they lie along a space-filling curve. Holds copies of what it needs; the mesh
+/// may go. All queries are const and may run in many threads at once; their answers do not depend
+/// on earlier ones.
 class TriangleBvh {
  public:
   /// Throws Error when the mesh has no triangle, an index out of range or a vertex that is not
@@ -80,6 +81,12 @@ class TriangleBvh {
   /// faces' normals at an edge, the sum weighted by corner angles at a vertex. Not normalised; zero
   /// on a face without area.
   [[nodiscard]] Vec3 pseudo_normal(const ClosestPoint& closest) const;
+
+  /// Whether some part of the surface lies within `radius`. Answers at the first that it finds.
+  [[nodiscard]] bool any_within(const Vec3& point, double radius) const;
+
+  /// All triangles, such that those near each other in the order are near each other in space.
+  [[nodiscard]] std::vector<std::uint32_t> tree_order() const;
 
   /// Calls visit(triangle index) once for every triangle whose bounding box overlaps or touches
   /// `box`, in a fixed order.

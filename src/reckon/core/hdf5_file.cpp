@@ -8,60 +8,16 @@
 
 #include <algorithm>
 #include <cstring>
-#include <mutex>
 #include <utility>
 
 #include "reckon/core/error.hpp"
+#include "reckon/core/hdf5_handle.hpp"
 #include "reckon/core/seal.hpp"
 
 namespace reckon {
 namespace {
 
-static_assert(std::is_same_v<hid_t, std::int64_t>, "the headers keep HDF5 handles as int64_t");
-
 constexpr std::size_t longest_text = 4096;
-
-/// An HDF5 handle and the function that closes it.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_{id}, close_{close} {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-
-  [[nodiscard]] hid_t get() const { return id_; }
-  [[nodiscard]] bool valid() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// HDF5 serves one thread at a time.
-std::recursive_mutex& hdf5_mutex() {
-  static std::recursive_mutex mutex;
-  return mutex;
-}
-
-/// For the time of a call: the library is ours alone, and keeps its errors to itself. (It prints
-/// them unless told otherwise.)
-class QuietHdf5 {
- public:
-  QuietHdf5() : lock_{hdf5_mutex()} {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  QuietHdf5(const QuietHdf5&) = delete;
-  QuietHdf5& operator=(const QuietHdf5&) = delete;
-
- private:
-  std::lock_guard<std::recursive_mutex> lock_;
-  H5E_auto2_t function_{nullptr};
-  void* data_{nullptr};
-};
 
 [[noreturn]] void fail(const std::filesystem::path& path, std::string problem,
                        std::string reason = {}) {
@@ -92,7 +48,7 @@ hid_t native_type(Hdf5Number type) {
 }
 
 /// A text of exactly `size` bytes, padded with NUL.
-Handle text_type(std::size_t size) {
+Hdf5Handle text_type(std::size_t size) {
   const hid_t type = H5Tcopy(H5T_C_S1);
   H5Tset_size(type, std::max<std::size_t>(size, 1));
   H5Tset_strpad(type, H5T_STR_NULLPAD);
@@ -101,23 +57,24 @@ Handle text_type(std::size_t size) {
 }
 
 bool write_text_attribute(hid_t object, const char* name, std::string_view text) {
-  const Handle type = text_type(text.size());
-  const Handle space{H5Screate(H5S_SCALAR), H5Sclose};
-  const Handle attribute{
+  const Hdf5Handle type = text_type(text.size());
+  const Hdf5Handle space{H5Screate(H5S_SCALAR), H5Sclose};
+  const Hdf5Handle attribute{
       H5Acreate2(object, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose};
   std::string padded{text};
   if (padded.empty()) padded.push_back('\0');
   return attribute.valid() && H5Awrite(attribute.get(), type.get(), padded.data()) >= 0;
 }
 
-Handle create_dataset(hid_t file, const std::string& name, hid_t type, const Hdf5Extents& extents) {
+Hdf5Handle create_dataset(hid_t file, const std::string& name, hid_t type,
+                          const Hdf5Extents& extents) {
   const std::vector<hsize_t> dims(extents.begin(), extents.end());
-  const Handle space{H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
-                     H5Sclose};
-  const Handle links{H5Pcreate(H5P_LINK_CREATE), H5Pclose};
+  const Hdf5Handle space{H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
+                         H5Sclose};
+  const Hdf5Handle links{H5Pcreate(H5P_LINK_CREATE), H5Pclose};
   H5Pset_create_intermediate_group(links.get(), 1);
   // Times of creation would make equal libraries differ in their bytes.
-  const Handle creation{H5Pcreate(H5P_DATASET_CREATE), H5Pclose};
+  const Hdf5Handle creation{H5Pcreate(H5P_DATASET_CREATE), H5Pclose};
   H5Pset_obj_track_times(creation.get(), false);
   return {
       H5Dcreate2(file, name.c_str(), type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
@@ -125,7 +82,7 @@ Handle create_dataset(hid_t file, const std::string& name, hid_t type, const Hdf
 }
 
 Hdf5Extents dataset_extents(hid_t dataset) {
-  const Handle space{H5Dget_space(dataset), H5Sclose};
+  const Hdf5Handle space{H5Dget_space(dataset), H5Sclose};
   const int rank = space.valid() ? H5Sget_simple_extent_ndims(space.get()) : 0;
   std::vector<hsize_t> dims(static_cast<std::size_t>(std::max(rank, 0)));
   if (rank > 0) H5Sget_simple_extent_dims(space.get(), dims.data(), nullptr);
@@ -141,8 +98,8 @@ std::uint64_t row_size(const Hdf5Extents& extents) {
 
 /// Dataspaces in file and memory for a run of whole rows.
 struct RowSelection {
-  Handle file_space;
-  Handle memory_space;
+  Hdf5Handle file_space;
+  Hdf5Handle memory_space;
   bool good;  ///< false: there are no such rows
 };
 
@@ -169,7 +126,7 @@ RowSelection select_rows(hid_t dataset, std::uint64_t first, std::uint64_t count
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& target, Hdf5Kind kind)
     : pending_{target}, kind_{std::move(kind)} {
   const QuietHdf5 quiet;
-  const Handle creation{H5Pcreate(H5P_FILE_CREATE), H5Pclose};
+  const Hdf5Handle creation{H5Pcreate(H5P_FILE_CREATE), H5Pclose};
   H5Pset_userblock(creation.get(), seal_size);
   H5Pset_obj_track_times(creation.get(), false);
   file_ = H5Fcreate(pending_.temporary().c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT);
@@ -189,7 +146,7 @@ Hdf5Writer::~Hdf5Writer() {
 void Hdf5Writer::create(const std::string& name, Hdf5Number type, const Hdf5Extents& extents,
                         std::string_view unit) {
   const QuietHdf5 quiet;
-  const Handle dataset = create_dataset(file_, name, native_type(type), extents);
+  const Hdf5Handle dataset = create_dataset(file_, name, native_type(type), extents);
   if (!dataset.valid() || !write_text_attribute(dataset.get(), "unit", unit)) {
     fail(pending_.target(), "dataset " + name + " could not be created");
   }
@@ -198,7 +155,7 @@ void Hdf5Writer::create(const std::string& name, Hdf5Number type, const Hdf5Exte
 void Hdf5Writer::write_raw(const std::string& name, std::uint64_t first, Hdf5Number type,
                            const void* values, std::uint64_t count) {
   const QuietHdf5 quiet;
-  const Handle dataset{H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose};
+  const Hdf5Handle dataset{H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose};
   if (!dataset.valid()) fail(pending_.target(), "dataset " + name + " does not exist");
   const RowSelection rows = select_rows(dataset.get(), first, count);
   if (!rows.good) {
@@ -221,8 +178,8 @@ void Hdf5Writer::write_texts(const std::string& name, const std::vector<std::str
     std::copy(texts[t].begin(), texts[t].end(),
               packed.begin() + static_cast<std::ptrdiff_t>(t * width));
   }
-  const Handle type = text_type(width);
-  const Handle dataset = create_dataset(file_, name, type.get(), {texts.size()});
+  const Hdf5Handle type = text_type(width);
+  const Hdf5Handle dataset = create_dataset(file_, name, type.get(), {texts.size()});
   if (!dataset.valid() || !write_text_attribute(dataset.get(), "unit", "text") ||
       (!texts.empty() &&
        H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.data()) < 0)) {
@@ -232,7 +189,7 @@ void Hdf5Writer::write_texts(const std::string& name, const std::vector<std::str
 
 void Hdf5Writer::write_note(const std::string& name, const std::string& text) {
   const QuietHdf5 quiet;
-  const Handle root{H5Gopen2(file_, "/", H5P_DEFAULT), H5Gclose};
+  const Hdf5Handle root{H5Gopen2(file_, "/", H5P_DEFAULT), H5Gclose};
   if (!write_text_attribute(root.get(), name.c_str(), text)) {
     fail(pending_.target(), "note " + name + " could not be written");
   }
@@ -271,13 +228,13 @@ Hdf5Reader::~Hdf5Reader() {
 
 bool Hdf5Reader::has(const std::string& name) const {
   const QuietHdf5 quiet;
-  const Handle dataset{H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose};
+  const Hdf5Handle dataset{H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose};
   return dataset.valid();
 }
 
 Hdf5Extents Hdf5Reader::extents(const std::string& name) const {
   const QuietHdf5 quiet;
-  const Handle dataset{H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose};
+  const Hdf5Handle dataset{H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose};
   if (!dataset.valid()) fail(path_, "lacks the dataset " + name);
   return dataset_extents(dataset.get());
 }
@@ -303,9 +260,9 @@ std::size_t Hdf5Reader::check_extents(const std::string& name, const Hdf5Extents
 void Hdf5Reader::read_raw(const std::string& name, std::uint64_t first, Hdf5Number type,
                           void* values, std::uint64_t count) const {
   const QuietHdf5 quiet;
-  const Handle dataset{H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose};
+  const Hdf5Handle dataset{H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose};
   if (!dataset.valid()) fail(path_, "lacks the dataset " + name);
-  const Handle stored{H5Dget_type(dataset.get()), H5Tclose};
+  const Hdf5Handle stored{H5Dget_type(dataset.get()), H5Tclose};
   if (!stored.valid() || H5Tequal(stored.get(), native_type(type)) <= 0) {
     fail(path_, "dataset " + name + " has another number type than expected");
   }
@@ -323,16 +280,16 @@ void Hdf5Reader::read_raw(const std::string& name, std::uint64_t first, Hdf5Numb
 std::vector<std::string> Hdf5Reader::read_texts(const std::string& name,
                                                 std::uint64_t count) const {
   const QuietHdf5 quiet;
-  const Handle dataset{H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose};
+  const Hdf5Handle dataset{H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose};
   if (!dataset.valid()) fail(path_, "lacks the dataset " + name);
-  const Handle stored{H5Dget_type(dataset.get()), H5Tclose};
+  const Hdf5Handle stored{H5Dget_type(dataset.get()), H5Tclose};
   const std::size_t width = stored.valid() ? H5Tget_size(stored.get()) : 0;
   if (width == 0 || width > longest_text || H5Tget_class(stored.get()) != H5T_STRING ||
       H5Tis_variable_str(stored.get()) != 0) {
     fail(path_, "dataset " + name + " does not hold texts");
   }
   std::string packed(check_extents(name, {count}, width) * width, '\0');
-  const Handle type = text_type(width);
+  const Hdf5Handle type = text_type(width);
   if (count > 0 &&
       H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.data()) < 0) {
     fail(path_, "dataset " + name + " could not be read");
@@ -347,15 +304,15 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& name,
 
 std::string Hdf5Reader::read_note(const std::string& name) const {
   const QuietHdf5 quiet;
-  const Handle attribute{H5Aopen(file_, name.c_str(), H5P_DEFAULT), H5Aclose};
-  const Handle stored{attribute.valid() ? H5Aget_type(attribute.get()) : -1, H5Tclose};
+  const Hdf5Handle attribute{H5Aopen(file_, name.c_str(), H5P_DEFAULT), H5Aclose};
+  const Hdf5Handle stored{attribute.valid() ? H5Aget_type(attribute.get()) : -1, H5Tclose};
   const std::size_t width = stored.valid() ? H5Tget_size(stored.get()) : 0;
   if (width == 0 || width > longest_text || H5Tget_class(stored.get()) != H5T_STRING ||
       H5Tis_variable_str(stored.get()) != 0) {
     fail(path_, "lacks the note " + name);
   }
   std::string text(width, '\0');
-  const Handle type = text_type(width);
+  const Hdf5Handle type = text_type(width);
   if (H5Aread(attribute.get(), type.get(), text.data()) < 0) {
     fail(path_, "note " + name + " could not be read");
   }

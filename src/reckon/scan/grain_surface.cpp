@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -99,8 +100,11 @@ Piece cut_out(const SegmentedScan& scan, std::uint32_t label, const LabelledGrai
 /// -ln(p / (1 - p)), which falls along a blurred edge nearly as the distance from it grows. Shares
 /// beyond 0.1 % of void and solid, which only noise tells apart, are cut off.
 double outwardness(double share) {
-  const double p = std::clamp(share, 1e-3, 1 - 1e-3);
-  return portable::log((1 - p) / p);
+  constexpr double least = 1e-3;
+  static const double largest = portable::log((1 - least) / least);
+  if (share <= least) return largest;
+  if (share >= 1 - least) return -largest;
+  return portable::log((1 - share) / share);
 }
 
 /// Turns the blurred shares and indicators into level sets: of the surface against void, 0 where
@@ -196,25 +200,19 @@ GrainSurface extract_grain(const SegmentedScan& scan, std::uint32_t label,
     surface.mesh_world = largest_component(extract_surface(level_set_of(piece, offset)));
     return solid_properties(surface.mesh_world).volume / surface.gray_volume - 1;
   };
-  // Regula falsi (Illinois): the volume grows with the offset, nearly linearly.
-  double low = -largest_offset;
-  double high = largest_offset;
-  double low_error = -1;
-  double high_error = 1;
+  // Secants. A unit of offset moves the surface by about half a voxel, which tells the first step.
+  const double diameter = portable::cbrt(6 * piece.gray_volume / std::numbers::pi);  // [voxels]
+  double slope = 3 / diameter;
   double offset = 0;
-  for (int round = 0; round < offset_rounds; ++round) {
-    const double error = error_at(offset);
-    if (!(std::abs(error) > volume_tolerance)) break;
-    if (error < 0) {
-      if (low > -largest_offset) high_error /= 2;  // the other end stays: do not let it stall
-      low = offset;
-      low_error = error;
-    } else {
-      if (high < largest_offset) low_error /= 2;
-      high = offset;
-      high_error = error;
-    }
-    offset = low - low_error * (high - low) / (high_error - low_error);
+  double error = error_at(offset);
+  for (int round = 1; round < offset_rounds && std::abs(error) > volume_tolerance; ++round) {
+    const double next = std::clamp(offset - error / slope, -largest_offset, largest_offset);
+    if (next == offset) break;
+    const double next_error = error_at(next);
+    const double found = (next_error - error) / (next - offset);
+    if (found > 0) slope = found;
+    offset = next;
+    error = next_error;
   }
   if (surface.mesh_world.triangles.empty()) {
     throw Error{{.place = fmt::format("grain {}", label),

@@ -20,14 +20,6 @@
 namespace reckon {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string problem, std::string reason,
-                       std::string fix) {
-  throw Error{{.place = file.string(),
-               .problem = std::move(problem),
-               .reason = std::move(reason),
-               .fix = std::move(fix)}};
-}
-
 /// Chosen by ourselves: the toolkit's way to find formats needs factories registered at start.
 itk::ImageIOBase::Pointer format_of(const std::filesystem::path& file) {
   const std::string ending = lower_case(file.extension().string());
@@ -68,19 +60,21 @@ void inspect(itk::ImageIOBase& io, const std::filesystem::path& file, unsigned d
   constexpr std::uint64_t most_compression = 2000;
   if (dynamic_cast<itk::TIFFImageIO*>(&io) != nullptr) check_tiff_pages(file);
   if (!io.CanReadFile(file.c_str())) {
-    fail(file, "the file is not what its name says", "its header is damaged or of another kind",
-         "Copy it again, or give it the right ending.");
+    refuse_volume(file, "the file is not what its name says",
+                  "its header is damaged or of another kind",
+                  "Copy it again, or give it the right ending.");
   }
   io.SetFileName(file);
   io.ReadImageInformation();
   if (io.GetNumberOfDimensions() != dimensions) {
-    fail(file, fmt::format("the file has {} dimensions", io.GetNumberOfDimensions()),
-         fmt::format("{} are needed", dimensions), "Give a volume, or a folder of slices for one.");
+    refuse_volume(file, fmt::format("the file has {} dimensions", io.GetNumberOfDimensions()),
+                  fmt::format("{} are needed", dimensions),
+                  "Give a volume, or a folder of slices for one.");
   }
   if (io.GetNumberOfComponents() != 1) {
-    fail(file, "the file holds colours or vectors",
-         fmt::format("{} numbers a voxel", io.GetNumberOfComponents()),
-         "Save it in shades of gray.");
+    refuse_volume(file, "the file holds colours or vectors",
+                  fmt::format("{} numbers a voxel", io.GetNumberOfComponents()),
+                  "Save it in shades of gray.");
   }
   std::array<std::int64_t, 3> dims{1, 1, 1};
   for (unsigned axis = 0; axis < dimensions; ++axis) {
@@ -134,10 +128,10 @@ StoredVolume read_itk_volume(const std::filesystem::path& file) {
       const double spacing = io->GetSpacing(0);
       for (unsigned axis = 1; axis < 3; ++axis) {
         if (!(std::abs(io->GetSpacing(axis) / spacing - 1) < 1e-3)) {
-          fail(file, "the voxels are not cubes",
-               fmt::format("their edges are {}, {} and {}", spacing, io->GetSpacing(1),
-                           io->GetSpacing(2)),
-               "Resample the volume to cubic voxels.");
+          refuse_volume(file, "the voxels are not cubes",
+                        fmt::format("their edges are {}, {} and {}", spacing, io->GetSpacing(1),
+                                    io->GetSpacing(2)),
+                        "Resample the volume to cubic voxels.");
         }
       }
       stored.spacing = spacing;
@@ -161,11 +155,11 @@ StoredVolume read_itk_slices(const std::vector<std::filesystem::path>& files) {
         stored.type = type;
       }
       if (width != stored.gray.dims[0] || height != stored.gray.dims[1] || type != stored.type) {
-        fail(files[k], "the slices of the stack differ",
-             fmt::format("this one has {} x {} pixels of {}, the first {} x {} of {}", width,
-                         height, name_of(type), stored.gray.dims[0], stored.gray.dims[1],
-                         name_of(stored.type)),
-             "Leave one stack only in the folder.");
+        refuse_volume(files[k], "the slices of the stack differ",
+                      fmt::format("this one has {} x {} pixels of {}, the first {} x {} of {}",
+                                  width, height, name_of(type), stored.gray.dims[0],
+                                  stored.gray.dims[1], name_of(stored.type)),
+                      "Leave one stack only in the folder.");
       }
       const auto slice = read_image<2>(io, files[k]);
       const std::size_t pixels = stored.gray.index(0, 0, 1);
@@ -191,8 +185,8 @@ void write_itk_volume(const std::filesystem::path& file, const GrayVolume& volum
       case VoxelType::float32:
         return write_numbers<float>(temporary, volume, type, io);
       default:
-        fail(file, fmt::format("numbers of type {} are not written here", name_of(type)),
-             "this format gets uint8, uint16 or float32", "Choose one of these.");
+        refuse_volume(file, fmt::format("numbers of type {} are not written here", name_of(type)),
+                      "this format gets uint8, uint16 or float32", "Choose one of these.");
     }
   });
   std::filesystem::rename(temporary, file);

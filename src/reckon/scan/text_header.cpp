@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "reckon/avatar/text_reader.hpp"
-#include "reckon/core/error.hpp"
 #include "reckon/scan/volume_formats.hpp"
 
 namespace reckon {
@@ -43,21 +42,13 @@ constexpr std::array nrrd_ignored{"space",       "kinds",     "space origin", "s
                                   "centers",     "content",   "labels",       "units",
                                   "thicknesses", "axis mins", "axis maxs",    "space dimension"};
 
-[[noreturn]] void fail(const std::string& place, std::string problem, std::string reason,
-                       std::string fix) {
-  throw Error{{.place = place,
-               .problem = std::move(problem),
-               .reason = std::move(reason),
-               .fix = std::move(fix)}};
-}
-
 template <class Types>
 VoxelType type_named(const Types& types, std::string_view name, const std::string& place) {
   const auto found = std::find_if(types.begin(), types.end(),
                                   [&](const NamedType& type) { return type.name == name; });
   if (found == types.end()) {
-    fail(place, "the type of the numbers is not known", in_quotes(name),
-         "Save it as integers of at most 32 bits or as floats.");
+    refuse_volume(place, "the type of the numbers is not known", in_quotes(name),
+                  "Save it as integers of at most 32 bits or as floats.");
   }
   return found->type;
 }
@@ -90,13 +81,13 @@ std::vector<double> numbers_in(std::string_view text, const std::string& place) 
 void set_dims(TextHeader& header, std::string_view text, const std::string& place) {
   const auto numbers = numbers_in(text, place);
   if (numbers.size() != 3) {
-    fail(place, "this is no volume", fmt::format("it has {} dimensions", numbers.size()),
-         "Give a volume of three dimensions.");
+    refuse_volume(place, "this is no volume", fmt::format("it has {} dimensions", numbers.size()),
+                  "Give a volume of three dimensions.");
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(numbers[axis] >= 1 && numbers[axis] <= 2147483647.0)) {
-      fail(place, "the volume's dimensions are out of range", fmt::format("{}", numbers[axis]),
-           "Each is at least 1.");
+      refuse_volume(place, "the volume's dimensions are out of range",
+                    fmt::format("{}", numbers[axis]), "Each is at least 1.");
     }
     header.dims[axis] = static_cast<std::int64_t>(numbers[axis]);
   }
@@ -112,20 +103,22 @@ void set_spacing(TextHeader& header, std::string_view text, const std::string& p
     } else if (numbers.size() == 9) {
       edges[axis] = std::hypot(numbers[3 * axis], numbers[3 * axis + 1], numbers[3 * axis + 2]);
     } else {
-      fail(place, "the voxel's edges are not understood", in_quotes(text), "Save it anew.");
+      refuse_volume(place, "the voxel's edges are not understood", in_quotes(text),
+                    "Save it anew.");
     }
   }
   if (!(std::abs(edges[1] / edges[0] - 1) < 1e-3 && std::abs(edges[2] / edges[0] - 1) < 1e-3)) {
-    fail(place, "the voxels are not cubes",
-         fmt::format("their edges are {}, {} and {}", edges[0], edges[1], edges[2]),
-         "Resample the volume to cubic voxels.");
+    refuse_volume(place, "the voxels are not cubes",
+                  fmt::format("their edges are {}, {} and {}", edges[0], edges[1], edges[2]),
+                  "Resample the volume to cubic voxels.");
   }
   header.spacing = edges[0];
 }
 
 void require_complete(const TextHeader& header, bool has_type, const std::string& place) {
   if (has_type && header.dims[0] > 0) return;
-  fail(place, "the header is not whole", "type or dimensions are missing", "Copy it again.");
+  refuse_volume(place, "the header is not whole", "type or dimensions are missing",
+                "Copy it again.");
 }
 
 /// Calls take(line) for each line up to and including the one for which it returns true; returns
@@ -140,7 +133,7 @@ std::size_t for_each_line(std::string_view bytes, const std::string& place, Take
     if (take(trimmed(bytes.substr(begin, end - begin)))) return end + 1;
     begin = end + 1;
   }
-  fail(place, "the header is not whole", "it does not end", "Copy the file again.");
+  refuse_volume(place, "the header is not whole", "it does not end", "Copy the file again.");
 }
 
 }  // namespace
@@ -151,7 +144,7 @@ TextHeader parse_metaimage_header(std::string_view bytes, const std::string& pla
   header.data_start = for_each_line(bytes, place, [&](std::string_view line) {
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos) {
-      fail(place, "the header is damaged", "a line has no =", "Copy the file again.");
+      refuse_volume(place, "the header is damaged", "a line has no =", "Copy the file again.");
     }
     const std::string_view key = trimmed(line.substr(0, equals));
     const std::string_view value = trimmed(line.substr(equals + 1));
@@ -168,15 +161,16 @@ TextHeader parse_metaimage_header(std::string_view bytes, const std::string& pla
       header.compressed = lower_case(value) == "true";
     } else if (key == "NDims" || key == "ElementNumberOfChannels") {
       if (value != (key == "NDims" ? "3" : "1")) {
-        fail(place, "this is no volume of one number a voxel", fmt::format("{} is {}", key, value),
-             "Save three dimensions in shades of gray.");
+        refuse_volume(place, "this is no volume of one number a voxel",
+                      fmt::format("{} is {}", key, value),
+                      "Save three dimensions in shades of gray.");
       }
     } else if (key == "ElementDataFile") {
       if (lower_case(value) != "local") header.data_file = value;
       return true;
     } else if (!is_among(meta_ignored, key)) {
-      fail(place, "a line of the header is not understood", in_quotes(key),
-           "Save the volume as plain MetaImage.");
+      refuse_volume(place, "a line of the header is not understood", in_quotes(key),
+                    "Save the volume as plain MetaImage.");
     }
     return false;
   });
@@ -186,7 +180,8 @@ TextHeader parse_metaimage_header(std::string_view bytes, const std::string& pla
 
 TextHeader parse_nrrd_header(std::string_view bytes, const std::string& place) {
   if (!bytes.starts_with("NRRD000")) {
-    fail(place, "this is no NRRD file", "it does not begin with NRRD000", "Check its name.");
+    refuse_volume(place, "this is no NRRD file", "it does not begin with NRRD000",
+                  "Check its name.");
   }
   TextHeader header;
   bool has_type = false;
@@ -196,7 +191,7 @@ TextHeader parse_nrrd_header(std::string_view bytes, const std::string& place) {
     if (std::exchange(first, false) || line.starts_with('#')) return false;
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos) {
-      fail(place, "the header is damaged", "a line has no colon", "Copy the file again.");
+      refuse_volume(place, "the header is damaged", "a line has no colon", "Copy the file again.");
     }
     if (line.substr(colon).starts_with(":=")) return false;  // a note
     const std::string_view key = trimmed(line.substr(0, colon));
@@ -213,18 +208,19 @@ TextHeader parse_nrrd_header(std::string_view bytes, const std::string& place) {
     } else if (key == "encoding") {
       header.compressed = value == "gzip" || value == "gz";
       if (!header.compressed && value != "raw") {
-        fail(place, "the encoding is not read", in_quotes(value), "Save it as raw or gzip.");
+        refuse_volume(place, "the encoding is not read", in_quotes(value),
+                      "Save it as raw or gzip.");
       }
     } else if (key == "dimension") {
       if (value != "3") {
-        fail(place, "this is no volume", fmt::format("it has {} dimensions", value),
-             "Give a volume of three dimensions.");
+        refuse_volume(place, "this is no volume", fmt::format("it has {} dimensions", value),
+                      "Give a volume of three dimensions.");
       }
     } else if (key == "data file" || key == "datafile") {
       header.data_file = value;
     } else if (!is_among(nrrd_ignored, key)) {
-      fail(place, "a line of the header is not understood", in_quotes(key),
-           "Save the volume as plain NRRD.");
+      refuse_volume(place, "a line of the header is not understood", in_quotes(key),
+                    "Save the volume as plain NRRD.");
     }
     return false;
   });

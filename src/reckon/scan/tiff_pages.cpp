@@ -9,22 +9,13 @@
 #include <utility>
 
 #include "reckon/avatar/byte_reader.hpp"
-#include "reckon/core/error.hpp"
 #include "reckon/scan/volume_formats.hpp"
 
 namespace reckon {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string problem, std::string reason,
-                       std::string fix) {
-  throw Error{{.place = file.string(),
-               .problem = std::move(problem),
-               .reason = std::move(reason),
-               .fix = std::move(fix)}};
-}
-
 [[noreturn]] void fail_cut_short(const std::filesystem::path& file, std::string reason) {
-  fail(file, "the file is cut short or damaged", std::move(reason), "Copy it again.");
+  refuse_volume(file, "the file is cut short or damaged", std::move(reason), "Copy it again.");
 }
 
 /// Reads pieces of a TIFF file by their places.
@@ -34,7 +25,8 @@ class TiffFile {
       : path_{path}, size_{std::filesystem::file_size(path)}, stream_{path, std::ios::binary} {
     const std::string head = bytes(0, 8);
     if (!head.starts_with("II") && !head.starts_with("MM")) {
-      fail(path, "this is no TIFF file", "it begins with neither II nor MM", "Check its name.");
+      refuse_volume(path, "this is no TIFF file", "it begins with neither II nor MM",
+                    "Check its name.");
     }
     order_ = head[0] == 'I' ? ByteReader::Order::little_endian : ByteReader::Order::big_endian;
     big_ = number(2, 2) == 43;
@@ -125,10 +117,10 @@ void check_tiff_pages(const std::filesystem::path& path) {
     ++pages;
     if (!first) first = page;
     if (page.width != first->width || page.height != first->height) {
-      fail(path, "the pages of the stack differ in size",
-           fmt::format("page {} has {} x {} pixels, the first {} x {}", pages, page.width,
-                       page.height, first->width, first->height),
-           "Give a stack whose slices all have one size.");
+      refuse_volume(path, "the pages of the stack differ in size",
+                    fmt::format("page {} has {} x {} pixels, the first {} x {}", pages, page.width,
+                                page.height, first->width, first->height),
+                    "Give a stack whose slices all have one size.");
     }
     if (page.data_end > file.size()) {
       fail_cut_short(path, fmt::format("page {} ends at byte {}, the file at {}", pages,

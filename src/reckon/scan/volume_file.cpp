@@ -19,14 +19,6 @@ namespace {
 
 constexpr double most_labels = 16777216;  // a float counts so far
 
-[[noreturn]] void fail(const std::string& place, std::string problem, std::string reason,
-                       std::string fix) {
-  throw Error{{.place = place,
-               .problem = std::move(problem),
-               .reason = std::move(reason),
-               .fix = std::move(fix)}};
-}
-
 std::string ending_of(const std::filesystem::path& file) {
   return lower_case(file.extension().string());
 }
@@ -42,9 +34,9 @@ bool needs_ct(const std::string& ending) {
 }
 
 [[noreturn]] void refuse_ending(const std::filesystem::path& file) {
-  fail(file.string(), "this kind of file is not known as a volume",
-       fmt::format("its name ends in \"{}\"", file.extension().string()),
-       "Give .tif, .nrrd, .mha, .raw, .npy or .h5, or a folder of TIFF slices.");
+  refuse_volume(file, "this kind of file is not known as a volume",
+                fmt::format("its name ends in \"{}\"", file.extension().string()),
+                "Give .tif, .nrrd, .mha, .raw, .npy or .h5, or a folder of TIFF slices.");
 }
 
 std::filesystem::path sidecar_of(const std::filesystem::path& file) {
@@ -57,8 +49,8 @@ StoredVolume read_slices(const std::filesystem::path& folder) {
     if (entry.is_regular_file() && is_tiff(entry.path())) files.push_back(entry.path());
   }
   if (files.empty()) {
-    fail(folder.string(), "the folder holds no TIFF slices", {},
-         "Name a folder of .tif files, one slice each, or a volume file.");
+    refuse_volume(folder, "the folder holds no TIFF slices", {},
+                  "Name a folder of .tif files, one slice each, or a volume file.");
   }
   std::sort(files.begin(), files.end());
   return read_itk_slices(files);
@@ -67,9 +59,9 @@ StoredVolume read_slices(const std::filesystem::path& folder) {
 StoredVolume read_raw(const std::filesystem::path& file) {
   const std::filesystem::path sidecar = sidecar_of(file);
   if (!std::filesystem::exists(sidecar)) {
-    fail(file.string(), "a raw volume does not say what its numbers are",
-         "there is no " + sidecar.filename().string() + " beside it",
-         "Write that file: lines `dims NX NY NZ`, `type uint16`, `order little`.");
+    refuse_volume(file, "a raw volume does not say what its numbers are",
+                  "there is no " + sidecar.filename().string() + " beside it",
+                  "Write that file: lines `dims NX NY NZ`, `type uint16`, `order little`.");
   }
   return parse_raw(read_file(file), read_file(sidecar), file.string());
 }
@@ -96,7 +88,7 @@ StoredVolume read_stored(const VolumeRequest& request) {
   const std::filesystem::path& file = request.file;
   if (std::filesystem::is_directory(file)) return read_slices(file);
   if (!std::filesystem::exists(file)) {
-    fail(file.string(), "there is no such file", {}, "Check its name.");
+    refuse_volume(file, "there is no such file", {}, "Check its name.");
   }
   const std::string ending = ending_of(file);
   if (ending == ".raw") return read_raw(file);
@@ -115,13 +107,22 @@ void check_spacing(const StoredVolume& stored, double voxel, const std::string& 
   for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
     if (std::abs(*stored.spacing * unit / voxel - 1) < 0.01) return;
   }
-  fail(place, "the file tells another voxel than was given",
-       fmt::format("{:.6g} in the file, {:.6g} m given; they agree in none of m, mm, um and nm",
-                   *stored.spacing, voxel),
-       "Check --voxel.");
+  refuse_volume(
+      place, "the file tells another voxel than was given",
+      fmt::format("{:.6g} in the file, {:.6g} m given; they agree in none of m, mm, um and nm",
+                  *stored.spacing, voxel),
+      "Check --voxel.");
 }
 
 }  // namespace
+
+void refuse_volume(const std::string& place, std::string problem, std::string reason,
+                   std::string fix) {
+  throw Error{{.place = place,
+               .problem = std::move(problem),
+               .reason = std::move(reason),
+               .fix = std::move(fix)}};
+}
 
 StoredVolume read_volume(const VolumeRequest& request) {
   StoredVolume stored = read_stored(request);
@@ -130,9 +131,9 @@ StoredVolume read_volume(const VolumeRequest& request) {
   const auto bad = std::find_if(stored.gray.values.begin(), stored.gray.values.end(),
                                 [](float value) { return !std::isfinite(value); });
   if (bad != stored.gray.values.end()) {
-    fail(place, "the volume holds a value that is not finite",
-         fmt::format("voxel {} in the file's order", bad - stored.gray.values.begin()),
-         "Replace such values first.");
+    refuse_volume(place, "the volume holds a value that is not finite",
+                  fmt::format("voxel {} in the file's order", bad - stored.gray.values.begin()),
+                  "Replace such values first.");
   }
   stored.gray.voxel = request.voxel;
   return stored;
@@ -168,8 +169,8 @@ GrayVolume to_gray(const LabelVolume& labels) {
   GrayVolume gray{labels};
   for (std::size_t v = 0; v < labels.values.size(); ++v) {
     if (labels.values[v] >= most_labels) {
-      fail("labels", "there are too many grains for this program", "more than 2^24",
-           "Cut the volume into parts.");
+      refuse_volume("labels", "there are too many grains for this program", "more than 2^24",
+                    "Cut the volume into parts.");
     }
     gray.values[v] = static_cast<float>(labels.values[v]);
   }
@@ -181,9 +182,9 @@ LabelVolume to_labels(const GrayVolume& volume, const std::string& place) {
   for (std::size_t v = 0; v < volume.values.size(); ++v) {
     const float value = volume.values[v];
     if (!(value >= 0 && value < most_labels && value == std::floor(value))) {
-      fail(place, "the volume holds no labels",
-           fmt::format("{} is no whole number from 0 to 16777215", value),
-           "Leave out --labelled if it is a gray volume.");
+      refuse_volume(place, "the volume holds no labels",
+                    fmt::format("{} is no whole number from 0 to 16777215", value),
+                    "Leave out --labelled if it is a gray volume.");
     }
     labels.values[v] = static_cast<std::uint32_t>(value);
   }

@@ -15,6 +15,10 @@
 /// The formats behind volume_file.hpp, each with its own source.
 namespace reckon {
 
+/// Throws Error about a volume's file, or whatever else `place` names.
+[[noreturn]] void refuse_volume(const std::string& place, std::string problem, std::string reason,
+                                std::string fix);
+
 /// As in NumPy's headers, e.g. "<u2".
 [[nodiscard]] std::string numpy_name_of(VoxelType type);
 

@@ -5,22 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <utility>
 
 #include "reckon/avatar/text_reader.hpp"
-#include "reckon/core/error.hpp"
 #include "reckon/scan/volume_formats.hpp"
 
 namespace reckon {
 namespace {
-
-[[noreturn]] void fail(const std::string& place, std::string problem, std::string reason,
-                       std::string fix) {
-  throw Error{{.place = place,
-               .problem = std::move(problem),
-               .reason = std::move(reason),
-               .fix = std::move(fix)}};
-}
 
 /// What stands behind a key of a NumPy header, up to the next comma outside brackets.
 std::string_view value_after(std::string_view header, std::string_view key,
@@ -28,7 +18,8 @@ std::string_view value_after(std::string_view header, std::string_view key,
   const std::size_t found = header.find(key);
   const std::size_t colon = found == std::string_view::npos ? found : header.find(':', found);
   if (colon == std::string_view::npos) {
-    fail(place, fmt::format("the NumPy header has no {}", key), {}, "Save the array anew.");
+    refuse_volume(place, fmt::format("the NumPy header has no {}", key), {},
+                  "Save the array anew.");
   }
   std::string_view rest = header.substr(colon + 1);
   rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
@@ -47,14 +38,15 @@ std::array<std::int64_t, 3> numpy_shape(std::string_view text, const std::string
     }
     std::int64_t length = 0;
     const auto [end, code] = std::from_chars(at, text.data() + text.size(), length);
-    if (code != std::errc{}) fail(place, "the array's shape is too large", {}, "Save it anew.");
+    if (code != std::errc{})
+      refuse_volume(place, "the array's shape is too large", {}, "Save it anew.");
     if (count < 3) shape[count] = length;
     ++count;
     at = end;
   }
   if (count != 3) {
-    fail(place, "the array is no volume", fmt::format("it has {} dimensions", count),
-         "Save an array of three dimensions, the last of which is x.");
+    refuse_volume(place, "the array is no volume", fmt::format("it has {} dimensions", count),
+                  "Save an array of three dimensions, the last of which is x.");
   }
   return shape;
 }
@@ -67,10 +59,10 @@ StoredVolume assemble_volume(const std::array<std::int64_t, 3>& dims, VoxelType 
   const auto count = static_cast<std::uint64_t>(dims[0]) * static_cast<std::uint64_t>(dims[1]) *
                      static_cast<std::uint64_t>(dims[2]);
   if (count * size_of(type) != bytes.size()) {
-    fail(place, "the volume and its header disagree",
-         fmt::format("{} x {} x {} {} take {} bytes, {} are there", dims[0], dims[1], dims[2],
-                     name_of(type), count * size_of(type), bytes.size()),
-         "Check dimensions and type.");
+    refuse_volume(place, "the volume and its header disagree",
+                  fmt::format("{} x {} x {} {} take {} bytes, {} are there", dims[0], dims[1],
+                              dims[2], name_of(type), count * size_of(type), bytes.size()),
+                  "Check dimensions and type.");
   }
   StoredVolume stored;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -84,8 +76,8 @@ StoredVolume assemble_volume(const std::array<std::int64_t, 3>& dims, VoxelType 
 StoredVolume parse_npy(std::string_view bytes, const std::string& name) {
   constexpr std::string_view magic{"\x93NUMPY", 6};
   if (bytes.size() < 12 || !bytes.starts_with(magic)) {
-    fail(name, "this is no NumPy file", "it does not begin with \\x93NUMPY",
-         "Save the array with numpy.save.");
+    refuse_volume(name, "this is no NumPy file", "it does not begin with \\x93NUMPY",
+                  "Save the array with numpy.save.");
   }
   const auto byte = [&](std::size_t n) {
     return static_cast<std::size_t>(static_cast<unsigned char>(bytes[n]));
@@ -95,7 +87,7 @@ StoredVolume parse_npy(std::string_view bytes, const std::string& name) {
   std::size_t length = byte(8) + 256 * byte(9);
   if (long_header) length += 65536 * byte(10) + 16777216 * byte(11);
   if (length > bytes.size() - start) {
-    fail(name, "the NumPy file is cut short", "its header is not whole", "Copy it again.");
+    refuse_volume(name, "the NumPy file is cut short", "its header is not whole", "Copy it again.");
   }
   const std::string_view header = bytes.substr(start, length);
   std::string_view descr = value_after(header, "'descr'", name);
@@ -107,11 +99,11 @@ StoredVolume parse_npy(std::string_view bytes, const std::string& name) {
   }
   const auto type = voxel_type_named(descr);
   if (!type) {
-    fail(name, "the array's type is not known", fmt::format("\"{}\"", descr),
-         "Save it as integers of at most 32 bits or as floats.");
+    refuse_volume(name, "the array's type is not known", fmt::format("\"{}\"", descr),
+                  "Save it as integers of at most 32 bits or as floats.");
   }
   if (value_after(header, "'fortran_order'", name).starts_with("True")) {
-    fail(name, "the array is in Fortran order", {}, "Save numpy.ascontiguousarray(a).");
+    refuse_volume(name, "the array is in Fortran order", {}, "Save numpy.ascontiguousarray(a).");
   }
   const auto shape = numpy_shape(value_after(header, "'shape'", name), name);
   return assemble_volume({shape[2], shape[1], shape[0]}, *type, big, bytes.substr(start + length),
@@ -148,8 +140,8 @@ StoredVolume parse_raw(std::string_view bytes, std::string_view sidecar, const s
     }
   }
   if (!type || dims[0] == 0) {
-    fail(sidecar_name, "dims or type are missing", {},
-         "Write lines `dims NX NY NZ`, `type uint16`, `order little`.");
+    refuse_volume(sidecar_name, "dims or type are missing", {},
+                  "Write lines `dims NX NY NZ`, `type uint16`, `order little`.");
   }
   return assemble_volume(dims, *type, big, bytes, name);
 }

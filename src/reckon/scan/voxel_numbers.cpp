@@ -11,7 +11,6 @@
 #include <limits>
 
 #include "reckon/avatar/text_reader.hpp"
-#include "reckon/core/error.hpp"
 #include "reckon/scan/volume_formats.hpp"
 
 namespace reckon {
@@ -62,14 +61,6 @@ void with_number(VoxelType type, Action&& action) {
   }
 }
 
-[[noreturn]] void fail(const std::string& place, std::string problem, std::string reason,
-                       std::string fix) {
-  throw Error{{.place = place,
-               .problem = std::move(problem),
-               .reason = std::move(reason),
-               .fix = std::move(fix)}};
-}
-
 }  // namespace
 
 std::string_view name_of(VoxelType type) { return entry_of(type).name; }
@@ -91,14 +82,14 @@ void check_dims(const std::array<std::int64_t, 3>& dims, std::uint64_t most,
   std::uint64_t count = 1;
   for (const std::int64_t dim : dims) {
     if (dim < 1 || dim > std::numeric_limits<std::int32_t>::max()) {
-      fail(place, "the volume's dimensions are out of range", fmt::format("{} was found", dim),
-           "Each is at least 1.");
+      refuse_volume(place, "the volume's dimensions are out of range",
+                    fmt::format("{} was found", dim), "Each is at least 1.");
     }
     if (static_cast<std::uint64_t>(dim) > most / count) {
-      fail(place, "the volume is cut short",
-           fmt::format("{} x {} x {} voxels are announced, {} are there at most", dims[0], dims[1],
-                       dims[2], most),
-           "Copy it again, or correct its header.");
+      refuse_volume(place, "the volume is cut short",
+                    fmt::format("{} x {} x {} voxels are announced, {} are there at most", dims[0],
+                                dims[1], dims[2], most),
+                    "Copy it again, or correct its header.");
     }
     count *= static_cast<std::uint64_t>(dim);
   }

@@ -52,7 +52,7 @@ TEST(ShapeBuilder, EllipsoidHasItsMassAndItsFrame) {
   EXPECT_NEAR(shape.descriptors.thickness, 1, 0.01);
 }
 
-TEST(ShapeBuilder, GridHoldsTheExactDistanceAndIsPadded) {
+TEST(ShapeBuilder, GridHoldsTheExactDistanceNearTheSurfaceAndIsPadded) {
   const TriangleMesh mesh = to_principal_frame(ellipsoid());
   const TriangleBvh bvh{mesh};
   const Shape shape = build_shape(mesh, {}, "ellipsoid");
@@ -63,7 +63,9 @@ TEST(ShapeBuilder, GridHoldsTheExactDistanceAndIsPadded) {
     const Vec3 vertex =
         grid.vertex_body(static_cast<std::int32_t>(v % nx), static_cast<std::int32_t>(v / nx % ny),
                          static_cast<std::int32_t>(v / nx / ny));
-    ASSERT_EQ(grid.values[v], static_cast<float>(bvh.signed_distance(vertex)));
+    const double distance = bvh.signed_distance(vertex);
+    const bool near = std::abs(distance) < 1.7 * grid.spacing;
+    ASSERT_NEAR(grid.values[v], static_cast<float>(distance), near ? 0 : 0.2 * grid.spacing);
   }
   for (int axis = 0; axis < 3; ++axis) {
     const auto last = grid.dims[static_cast<std::size_t>(axis)] - 1;
@@ -139,7 +141,8 @@ TEST_P(EveryShape, NodeAreasObeyGauss) {
     volume += dot(p, a) / 3;
   }
   EXPECT_LT(norm(closure), 0.01 * shape.descriptors.surface_area);
-  EXPECT_NEAR(volume / shape.mass.volume, 1, 0.03);
+  // At an edge the grid's normal lies between both faces', which counts a little too much.
+  EXPECT_NEAR(volume / shape.mass.volume, 1, 0.045);
 }
 
 std::string shape_name(const ::testing::TestParamInfo<int>& parameter) {

@@ -35,7 +35,8 @@ double variation(const std::vector<double>& values) {
 
 Evenness evenness(const TriangleMesh& mesh, std::size_t count) {
   const TriangleBvh bvh{mesh};
-  const OrientedPoints points = spread_points(mesh, bvh, count);
+  const std::vector<std::uint32_t> order = bvh.tree_order();
+  const OrientedPoints points = spread_points({mesh, order}, bvh, count);
   EXPECT_EQ(points.size(), count);
   std::vector<double> nearest(count, std::numeric_limits<double>::infinity());
   double mean = 0;
@@ -117,6 +118,31 @@ TEST(TributaryAreas, TwoPolesShareASphereAndAThinPlateKeepsItsSidesApart) {
   const auto areas = tributary_areas(points, sample_surface(plate, 40000), 8);
   for (int n = 0; n < 4; ++n) EXPECT_NEAR(areas[static_cast<std::size_t>(n)], 1, 0.02);
   EXPECT_NEAR(areas[4], 4, 0.03);
+}
+
+TEST(TributaryAreas, AreTheSameWhetherSamplesAreKeptOrNot) {
+  const TriangleMesh mesh = test::stretched(geodesic_sphere(20), {1, 0.6, 0.3});
+  const TriangleBvh bvh{mesh};
+  const std::vector<std::uint32_t> order = bvh.tree_order();
+  const SurfaceSampler sampler{mesh, order};
+  const OrientedPoints points = spread_points(sampler, bvh, 150);
+  const OrientedPoints samples = sample_surface(sampler, 20000);
+  EXPECT_EQ(tributary_areas(points, samples, sampler.area()),
+            tributary_areas(points, sampler, samples.size()));
+  // And are those of the nearest points, found one by one.
+  std::vector<double> share(points.size(), 0);
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    std::size_t best = 0;
+    for (std::size_t n = 1; n < points.size(); ++n) {
+      if (squared_norm(points.position[n] - samples.position[s]) <
+          squared_norm(points.position[best] - samples.position[s])) {
+        best = n;
+      }
+    }
+    share[best] += sampler.area() / 20000;
+  }
+  const auto areas = tributary_areas(points, sampler, samples.size());
+  for (std::size_t n = 0; n < share.size(); ++n) EXPECT_NEAR(areas[n] / share[n], 1, 1e-9);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "grids.hpp"
+#include "reckon/avatar/geodesic_sphere.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/random.hpp"
 #include "test_meshes.hpp"
@@ -167,6 +169,33 @@ TEST(TriangleBvh, SignIsRightBesideSharpEdges) {
     ASSERT_EQ(bvh.signed_distance(p) < 0, inside) << p.x << ' ' << p.y << ' ' << p.z;
   }
   EXPECT_GT(inside_count, 100);
+}
+
+TEST(TriangleBvh, KnowsWhetherAnythingIsNear) {
+  const TriangleMesh mesh = test::stretched(geodesic_sphere(9), {1, 0.7, 0.4});
+  const TriangleBvh bvh{mesh};
+  RandomStream random{17, RandomPurpose::other, 0};
+  for (int n = 0; n < 3000; ++n) {
+    const Vec3 p = random_point(random, -1.5, 1.5);
+    const double distance = std::sqrt(bvh.closest_point(p).squared_distance);
+    EXPECT_TRUE(bvh.any_within(p, distance * 1.001));
+    EXPECT_FALSE(bvh.any_within(p, distance * 0.999));
+  }
+}
+
+TEST(TriangleBvh, ItsOrderHoldsEveryTriangleOnceWithNeighboursNearEachOther) {
+  const TriangleMesh mesh = geodesic_sphere(20);
+  std::vector<std::uint32_t> order = TriangleBvh{mesh}.tree_order();
+  double step = 0;
+  for (std::size_t n = 1; n < order.size(); ++n) {
+    step += norm(mesh.vertices[mesh.triangles[order[n]][0]] -
+                 mesh.vertices[mesh.triangles[order[n - 1]][0]]) /
+            static_cast<double>(order.size());
+  }
+  EXPECT_LT(step, 0.2);  // chance would make it 4/3
+  std::sort(order.begin(), order.end());
+  ASSERT_EQ(order.size(), mesh.triangles.size());
+  for (std::uint32_t t = 0; t < order.size(); ++t) EXPECT_EQ(order[t], t);
 }
 
 TEST(TriangleBvh, RefusesWhatItCannotSearch) {

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+
+/// What every caller of the HDF5 library needs. Its header stays out of ours: hid_t is std::int64_t
+/// and herr_t is int, which hdf5_handle.cpp asserts.
+namespace reckon {
+
+/// An HDF5 handle and the function that closes it.
+class Hdf5Handle {
+ public:
+  Hdf5Handle(std::int64_t id, int (*close)(std::int64_t)) : id_{id}, close_{close} {}
+  ~Hdf5Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+
+  [[nodiscard]] std::int64_t get() const { return id_; }
+  [[nodiscard]] bool valid() const { return id_ >= 0; }
+
+ private:
+  std::int64_t id_;
+  int (*close_)(std::int64_t);
+};
+
+/// For the time of a call: the library, which serves one thread at a time, is this thread's alone,
+/// and keeps its errors to itself. (It prints them unless told otherwise.)
+class QuietHdf5 {
+ public:
+  QuietHdf5();
+  ~QuietHdf5();
+  QuietHdf5(const QuietHdf5&) = delete;
+  QuietHdf5& operator=(const QuietHdf5&) = delete;
+
+ private:
+  std::lock_guard<std::recursive_mutex> lock_;
+  int (*report_)(std::int64_t, void*){nullptr};
+  void* report_data_{nullptr};
+};
+
+}  // namespace reckon
