@@ -15,13 +15,15 @@ target_include_directories(reckon_flags INTERFACE
 # become one instruction; it changes no result.)
 target_compile_options(reckon_flags INTERFACE -ffp-contract=off -fno-math-errno)
 
-target_compile_options(reckon_flags INTERFACE
+# Warnings are the project's own business, not that of those who link its libraries.
+set(reckon_warnings
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wold-style-cast
   -Wno-missing-field-initializers)  # left-out designated initialisers take the stated defaults
 if(RECKON_WARNINGS_AS_ERRORS)
-  target_compile_options(reckon_flags INTERFACE -Werror)
+  list(APPEND reckon_warnings -Werror)
 endif()
+target_compile_options(reckon_flags INTERFACE "$<BUILD_INTERFACE:${reckon_warnings}>")
 
 if(RECKON_SANITIZE)
   target_compile_options(reckon_flags INTERFACE

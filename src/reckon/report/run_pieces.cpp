@@ -55,7 +55,8 @@ void add_history(const RunFolder& folder, const SceneConfig& scene, std::size_t 
   if (std::filesystem::exists(folder.history())) table = read_history(folder.history());
   const std::vector<Wall> walls = make_walls(scene);
   std::map<std::string, std::string> meanings;
-  for (const HistoryColumn& column : history_columns({walls, true, true})) {
+  for (const HistoryColumn& column :
+       history_columns({.walls = walls, .membrane = true, .stages = true, .sample = true})) {
     meanings[column.name] = column.meaning;
   }
   std::vector<std::uint64_t> rows(table.rows.size());
