@@ -96,6 +96,10 @@ class Session {
         fmt::format("reckon {} ({}), {}{} thread{}", build.version, build.revision, ranks,
                     thread_count(), thread_count() == 1 ? "" : "s");
     if (files_ != nullptr) files_->note(what);
+    if (files_ != nullptr && config_.material.density_scaling != 1) {
+      files_->note(fmt::format("inertia is scaled: grains move as if {:.4g} times denser",
+                               config_.material.density_scaling));
+    }
     if (resumed_) {
       if (files_ != nullptr) {
         files_->note(fmt::format("resumed from the checkpoint of step {}", progress_.step));

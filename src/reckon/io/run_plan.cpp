@@ -38,6 +38,7 @@ void describe_assembly(const LoadedScene& scene, const PreparedScene& prepared, 
   plan.shapes = scene.shapes.size();
   plan.walls = prepared.setup.walls.size();
   plan.smallest_diameter = std::numeric_limits<double>::infinity();
+  plan.density_scaling = scene.config.material.density_scaling;
   std::set<ShapeId> in_use;
   for (const GrainState& grain : scene.grains) {
     const ShapeOutline& shape = scene.shapes[grain.shape.get()].outline;
@@ -187,6 +188,11 @@ std::string plan_text(const RunPlan& plan) {
   line("grains",
        fmt::format("{}, of {} of the library's {} shapes, {:.4g} kg", human_count(plan.grains),
                    plan.shapes_in_use, plan.shapes, plan.solid_mass));
+  if (plan.density_scaling != 1) {
+    line("inertia", fmt::format("SCALED: grains move as if {:.4g} times denser; time step {:.3g} "
+                                "times longer",
+                                plan.density_scaling, std::sqrt(plan.density_scaling)));
+  }
   line("sizes", fmt::format("bounding spheres of {:.4g} to {:.4g} m across", plan.smallest_diameter,
                             plan.largest_diameter));
   line("nodes", fmt::format("{} on all grains", human_count(plan.nodes)));
@@ -257,6 +263,7 @@ std::string plan_json(const RunPlan& plan) {
     json.value("membrane_nodes", plan.membrane_nodes);
     json.value("membrane_areal_mass_kg_per_m2", plan.membrane_areal_mass);
   }
+  json.value("density_scaling", plan.density_scaling);
   json.value("bin_edge_m", plan.bin_edge);
   json.value("occupied_bins", plan.occupied_bins);
   json.value("listed_pairs", plan.listed_pairs);

@@ -22,6 +22,7 @@ struct RunPlan {
   double smallest_diameter{0};  ///< of bounding spheres in use [m]
   double largest_diameter{0};   ///< [m]
   double solid_mass{0};         ///< [kg]
+  double density_scaling{1};    ///< see MaterialConfig
 
   std::uint64_t membrane_nodes{0};  ///< as its mould stands at the start
   double membrane_areal_mass{0};    ///< that the time step asks for [kg/m^2]

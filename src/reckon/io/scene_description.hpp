@@ -36,6 +36,15 @@ void describe(Visitor& v, MaterialConfig& material) {
             .range = above(0),
             .meaning = "Density of the grains' solid."},
            material.density);
+  if (v.visits(material.density_scaling != 1)) {  // not written when off: older runs go on
+    v.number({.name = "density_scaling",
+              .unit = "1",
+              .range = at_least(1),
+              .meaning = "Grains move as if they were this many times denser, but weigh what they "
+                         "weigh: the time step grows with its root, for quasi-static tests alone. "
+                         "Energies and inertial numbers are those of the scaled density."},
+             material.density_scaling);
+  }
   v.number({.name = "friction",
             .unit = "1",
             .range = at_least(0),

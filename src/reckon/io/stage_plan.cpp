@@ -52,7 +52,7 @@ std::vector<StagePlan> plan_stages(const LoadedScene& scene, double time_step) {
     }
     if (stress > 0) held = stress;
     if (rate > 0 && held > 0) {
-      const double density = config.material.density;
+      const double density = config.material.inertial_density();
       plan.pace = {rate, held, rate / rate_at(1, held, diameter, density),
                    rate_at(quasi_static_inertial_number, held, diameter, density)};
     }

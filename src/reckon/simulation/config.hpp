@@ -27,6 +27,10 @@ namespace reckon {
 struct MaterialConfig {
   double density{2650};  ///< [kg/m^3], > 0
   double friction{0.5};  ///< Coulomb coefficient between grains, >= 0
+  /// Grains are moved as if they were this many times denser, and weigh what they weigh; >= 1.
+  double density_scaling{1};
+
+  [[nodiscard]] double inertial_density() const { return density * density_scaling; }
 };
 
 enum class ContactLawKind { linear, area, hertz };

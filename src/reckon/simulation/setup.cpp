@@ -128,7 +128,7 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
   }
   prepared.setup = {
       .shapes = ShapeStore{ranks, std::move(outlines), scene.read_shape},
-      .density = config.material.density,
+      .density = config.material.inertial_density(),
       .contact = {make_law(config.contact, config.contact.normal_stiffness,
                            config.contact.shear_stiffness, true,
                            config.contact.node_cap.value_or(0), false),
@@ -136,8 +136,9 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
       .walls = make_walls(config),
       .membrane = {},
       .outflows = outflow_planes(config),
-      .body_force = {config.body.gravity, config.body.random_acceleration,
-                     config.body.random_interval, config.seed, scene.own_accelerations},
+      .body_force = {config.body.gravity / config.material.density_scaling,
+                     config.body.random_acceleration, config.body.random_interval, config.seed,
+                     scene.own_accelerations},
       .damping = config.body.damping,
       .time_step = prepared.time_step.step,
       .stages = {},

@@ -62,8 +62,8 @@ void resolve_rate_limits(SceneConfig& scene, std::span<const GrainState> grains,
       if (control.target != WallTarget::stress || control.rate_limit || !(control.value > 0)) {
         continue;
       }
-      control.rate_limit =
-          rate_at(servo_inertial_number, control.value, diameter, scene.material.density);
+      control.rate_limit = rate_at(servo_inertial_number, control.value, diameter,
+                                   scene.material.inertial_density());
     }
   }
 }
@@ -71,10 +71,11 @@ void resolve_rate_limits(SceneConfig& scene, std::span<const GrainState> grains,
 std::vector<StageSetup> make_stages(const SceneConfig& scene, std::span<const Wall> walls) {
   std::vector<StageSetup> stages;
   for (const StageConfig& config : scene.stages) {
-    StageSetup stage{.name = config.name,
-                     .friction = config.friction.value_or(scene.material.friction),
-                     .gravity = config.gravity.value_or(scene.body.gravity),
-                     .damping = config.damping.value_or(scene.body.damping)};
+    StageSetup stage{
+        .name = config.name,
+        .friction = config.friction.value_or(scene.material.friction),
+        .gravity = config.gravity.value_or(scene.body.gravity) / scene.material.density_scaling,
+        .damping = config.damping.value_or(scene.body.damping)};
     if (config.membrane) {
       stage.membrane = MembranePressure{config.membrane->pressure, config.membrane->ramp};
     } else if (!stages.empty() && stages.back().membrane) {

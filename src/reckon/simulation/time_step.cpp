@@ -44,7 +44,7 @@ TimeStepChoice choose_time_step(const SceneConfig& scene, std::span<const GrainS
   for (const GrainState& grain : grains) {
     if (grain.prescribed) continue;
     const std::size_t s = grain.shape.get();
-    const double mass = scene.material.density * shapes[s].outline.mass.volume;
+    const double mass = scene.material.inertial_density() * shapes[s].outline.mass.volume;
     if (mass / stiffness[s] < slowest) {
       slowest = mass / stiffness[s];
       choice.limiting = grain.id;

@@ -190,7 +190,7 @@ TEST_F(SceneReaderTest, SuggestsTheNearestKeyOrItsTable) {
   EXPECT_EQ(fix_of("[material]\ndensty = 1\n"), "Did you mean `density`?");
   EXPECT_EQ(fix_of("friction = 1\n"), "`friction` belongs in [material].");
   EXPECT_EQ(fix_of("[body]\nseed = 1\n"), "`seed` belongs at the top, before any table.");
-  EXPECT_EQ(fix_of("[material]\ncolour = 1\n"), "Known here: density, friction.");
+  EXPECT_EQ(fix_of("[material]\ncolour = 1\n"), "Known here: density, density_scaling, friction.");
   EXPECT_EQ(
       fix_of("[[wall]]\nname='w'\nplan = {}\nplane = { point = [0,0,0], normal = [0,0,1] }\n"),
       "Did you mean `plane`?");

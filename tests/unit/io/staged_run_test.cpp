@@ -78,6 +78,30 @@ TEST_F(StagedRunTest, BreaksAnywhereLeaveTheSameFiles) {
   EXPECT_EQ(run(staged(), {.folder = root_ / "whole", .resume = true}).end, RunEnd::nothing_to_do);
 }
 
+/// A hundred times the inertia: steps ten times longer, weights as they are, and the run says so.
+TEST_F(StagedRunTest, DensityScalingKeepsWeightAndLengthensSteps) {
+  const std::string plain = scene_text(usual);
+  std::string scaled = plain;
+  scaled.replace(scaled.find("friction = 0.4"), 14, "friction = 0.4\ndensity_scaling = 100");
+  const auto prepared = [&](const std::string& text) {
+    SceneReading reading = read(text);
+    return prepare(load_scene(reading));
+  };
+  const PreparedScene one = prepared(plain);
+  const PreparedScene hundred = prepared(scaled);
+  EXPECT_NEAR(hundred.time_step.step, 10 * one.time_step.step, 1e-12 * one.time_step.step);
+  EXPECT_EQ(hundred.setup.density, 100 * one.setup.density);
+  EXPECT_NEAR(hundred.setup.density * hundred.setup.body_force.gravity.z,
+              one.setup.density * one.setup.body_force.gravity.z, 1e-9);
+  std::vector<std::string> notes;
+  RunHooks hooks;
+  hooks.note = [&](const std::string& note) { notes.push_back(note); };
+  (void)run(scaled, {.folder = root_ / "run", .steps = 3}, hooks);
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note == "inertia is scaled: grains move as if 100 times denser";
+  }));
+}
+
 TEST_F(StagedRunTest, AShorterRunGoesOn) {
   (void)run(staged(), {.folder = root_ / "whole"});
   EXPECT_EQ(run(staged(), {.folder = root_ / "short", .steps = 411}).progress.step, 411U);
