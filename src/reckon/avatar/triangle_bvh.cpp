@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -187,13 +188,13 @@ void TriangleBvh::build_tree(const TriangleMesh& mesh) {
         {{mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]}, t});
   }
   // Children come after their parents.
-  for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
-    if (node->count == 0) {
-      node->box.include(nodes_[node->first].box);
-      node->box.include(nodes_[node->first + 1].box);
+  for (Node& node : std::ranges::reverse_view(nodes_)) {
+    if (node.count == 0) {
+      node.box.include(nodes_[node.first].box);
+      node.box.include(nodes_[node.first + 1].box);
     }
-    for (std::uint32_t n = node->first; n < node->first + node->count; ++n) {
-      for (const Vec3& corner : leaves_[n].corners) node->box.include(corner);
+    for (std::uint32_t n = node.first; n < node.first + node.count; ++n) {
+      for (const Vec3& corner : leaves_[n].corners) node.box.include(corner);
     }
   }
 }

@@ -107,14 +107,23 @@ double outwardness(double share) {
   return portable::log((1 - share) / share);
 }
 
-/// Turns the blurred shares and indicators into level sets: of the surface against void, 0 where
-/// the share is 1/2, and against neighbours.
-void to_level_sets(Piece& piece) {
+/// Turns the smoothed indicators into a level set of the border with the neighbours, and cuts the
+/// shares off there, as a voxel's own part would be: at a contact what is left is half of the gap's
+/// void, so that the surface, once smoothed, recedes from the border as the gap widens.
+void cut_at_border(Piece& piece) {
+  constexpr double logits_per_deviation = 1.702;  // of a Gaussian edge, at its middle
   for (std::size_t v = 0; v < piece.share.values.size(); ++v) {
-    piece.share.values[v] = static_cast<float>(outwardness(piece.share.values[v]));
     const double own_part = 0.5 - 0.5 * piece.border.values[v];
-    piece.border.values[v] = static_cast<float>(border_smoothing * outwardness(own_part));
+    const double level = border_smoothing * outwardness(own_part);
+    piece.border.values[v] = static_cast<float>(level);
+    const double beyond = level / logits_per_deviation;  // [voxels]
+    piece.share.values[v] *= static_cast<float>(std::clamp(0.5 - beyond, 0.0, 1.0));
   }
+}
+
+/// Turns the smoothed shares into a level set, 0 where the share is 1/2.
+void to_level_set(GrayVolume& share) {
+  for (float& value : share.values) value = static_cast<float>(outwardness(value));
 }
 
 /// The level set of the grain, its surface against void moved outwards by `offset`.
@@ -187,8 +196,9 @@ GrainSurface extract_grain(const SegmentedScan& scan, std::uint32_t label,
                            const LabelledGrain& grain, double smoothing) {
   Piece piece = cut_out(scan, label, grain);
   blur_volume(piece.border, border_smoothing);
+  cut_at_border(piece);
   blur_volume(piece.share, smoothing);
-  to_level_sets(piece);
+  to_level_set(piece.share);
   const double voxel_volume = scan.labels->voxel * scan.labels->voxel * scan.labels->voxel;
   GrainSurface surface;
   surface.label_volume = static_cast<double>(grain.voxels) * voxel_volume;

@@ -40,7 +40,7 @@ struct ScannedContact {
 
 struct AvatarSettings {
   ShapeResolution resolution;
-  double smoothing{0.5};     ///< see extract_grain [voxels]
+  double smoothing{0.8};     ///< see extract_grain [voxels]
   double contact_gap{0.22};  ///< largest gray gap of grains that count as touching [voxels]
 };
 

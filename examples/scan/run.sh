@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: Sand Reckoner contributors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+#   examples/scan/run.sh [RECKON]
+# Settles five hundred known grains, scans them with 20, 30 and 40 voxels per diameter, makes avatars of the scans and compares
+# them with the grains, as docs/verification/scan.md shows: below build/examples/scan, in about half an hour on two cores.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+reckon=$(realpath "${1:-build/release/apps/reckon/reckon}")
+work=build/examples/scan
+mkdir -p "$work"
+cp examples/scan/scene.toml "$work/"
+cd "$work"
+[[ -s smooth.h5 ]] || "$reckon" grains generate --count 50 --seed 7 --d50 1mm --roundness 0.55 --roundness-deviation 0.08 \
+  --roughness 0.01 --highest-degree 10 --voxels-per-diameter 40 -o smooth.h5
+[[ -d scene.run ]] || "$reckon" run scene.toml
+for voxel in 50.8um 33.9um 25.4um; do
+  "$reckon" grains scan scene.run --voxel $voxel --out "scan-$voxel"
+  "$reckon" grains from-scan "scan-$voxel/volume.h5" --voxel $voxel --out "found-$voxel" --truth "scan-$voxel"
+done
+/usr/bin/python3 - found-*/report.json <<'TABLE'
+import json
+import sys
+
+print("| voxels per diameter | found once | split | joined | volume | sizes | inertia | centre | surface | normals | recall | precision |")
+print("|---|---|---|---|---|---|---|---|---|---|---|---|")
+for t in sorted((json.load(open(name))["truth"] for name in sys.argv[1:]), key=lambda t: t["voxels_per_diameter"]):
+    print(f"| {t['voxels_per_diameter']:.0f} | {t['found_once']} of {t['grains']} | {t['split']} | {t['joined']} "
+          f"| {t['volume_error']:+.2%} | {t['volume_error_absolute']:.2%} | {t['inertia_error']:.2%} "
+          f"| {t['center_error_voxels']:.2f} voxels | {t['surface_error_voxels']:.2f} voxels | {t['normal_error_degrees']:.1f}° "
+          f"| {t['recall']:.1%} | {t['precision']:.1%} |")
+TABLE
