@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <string>
 #include <utility>
 
@@ -188,7 +187,8 @@ void TriangleBvh::build_tree(const TriangleMesh& mesh) {
         {{mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]}, t});
   }
   // Children come after their parents.
-  for (Node& node : std::ranges::reverse_view(nodes_)) {
+  for (std::size_t last = nodes_.size(); last > 0; --last) {
+    Node& node = nodes_[last - 1];
     if (node.count == 0) {
       node.box.include(nodes_[node.first].box);
       node.box.include(nodes_[node.first + 1].box);
