@@ -14,7 +14,7 @@ namespace reckon::python {
 
 namespace py = pybind11;
 
-/// One array per quantity, by name.
+/// Copies, a row for each.
 [[nodiscard]] py::array_t<double> rows_of(std::span<const Vec3> vectors);            ///< (n, 3)
 [[nodiscard]] py::array_t<double> rows_of(std::span<const Quaternion> quaternions);  ///< (n, 4)
 [[nodiscard]] py::tuple tuple_of(const Vec3& v);

@@ -73,9 +73,15 @@ py::tuple sample(const SharedShape& shape,
   return py::make_tuple(array_of<double>(phi), rows_of(gradient));
 }
 
-std::vector<SharedShape> shared(ShapeLibrary library) {
+std::vector<SharedShape> build(const std::vector<ShapeSource>& sources, double voxels_per_diameter,
+                               std::optional<std::uint32_t> node_count) {
+  ShapeResolution resolution;
+  resolution.voxels_per_diameter = voxels_per_diameter;
+  resolution.node_count = node_count;
   std::vector<SharedShape> shapes;
-  for (Shape& shape : library) shapes.push_back(std::make_shared<Shape>(std::move(shape)));
+  for (Shape& shape : build_library(sources, resolution)) {
+    shapes.push_back(std::make_shared<Shape>(std::move(shape)));
+  }
   return shapes;
 }
 
@@ -90,10 +96,7 @@ std::vector<SharedShape> generate(std::uint32_t count, std::uint64_t seed, doubl
   std::vector<ShapeSource> sources;
   for (std::uint32_t n = 0; n < count; ++n)
     sources.push_back(generated_source(statistics, seed, n));
-  ShapeResolution resolution;
-  resolution.voxels_per_diameter = voxels_per_diameter;
-  resolution.node_count = node_count;
-  return shared(build_library(sources, resolution));
+  return build(sources, voxels_per_diameter, node_count);
 }
 
 std::vector<SharedShape> from_meshes(const std::vector<std::filesystem::path>& files, double unit,
@@ -101,10 +104,7 @@ std::vector<SharedShape> from_meshes(const std::vector<std::filesystem::path>& f
                                      std::optional<std::uint32_t> node_count) {
   std::vector<ShapeSource> sources;
   for (const auto& file : files) sources.push_back(mesh_file_source(file, unit));
-  ShapeResolution resolution;
-  resolution.voxels_per_diameter = voxels_per_diameter;
-  resolution.node_count = node_count;
-  return shared(build_library(sources, resolution));
+  return build(sources, voxels_per_diameter, node_count);
 }
 
 void save(const std::vector<SharedShape>& shapes, const std::filesystem::path& path) {
