@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <utility>
 
 #include "grains_parts.hpp"
@@ -77,6 +78,17 @@ double parse_length_unit(const std::string& option, const std::string& text) {
            "Give um, mm, m or the like.");
   }
   return parse_quantity("1 " + text).value;
+}
+
+void add_storage_option(CLI::App& command, ShapeStorage& storage) {
+  static const std::map<std::string, ShapeStorage> kinds{{"full", ShapeStorage::full},
+                                                         {"band", ShapeStorage::band}};
+  command
+      .add_option("--storage", storage,
+                  "full: whole grids; band: 16-bit distances within two voxels of the surface and "
+                  "nodes in single precision, a quarter of the memory or less")
+      ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case))
+      ->option_text("full|band [full]");
 }
 
 std::vector<const Shape*> choose_shapes(const ShapeLibrary& library,

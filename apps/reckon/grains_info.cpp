@@ -18,10 +18,7 @@
 namespace reckon::app {
 namespace {
 
-std::uint64_t memory_of(const Shape& shape) {
-  return shape.level_set.values.size() * sizeof(float) + shape.nodes.size() * 4 * sizeof(double) +
-         shape.clusters.size() * sizeof(NodeCluster);
-}
+std::uint64_t memory_of(const Shape& shape) { return outline_of(shape).memory(); }
 
 /// Metres in the unit that suits most grains of a library, so that a column can be compared.
 struct LengthUnit {

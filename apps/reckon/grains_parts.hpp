@@ -37,6 +37,9 @@ void add_grains_statistics(CLI::App& grains);
 /// How many metres a unit of length such as "mm" has.
 [[nodiscard]] double parse_length_unit(const std::string& option, const std::string& text);
 
+/// --storage: whole grids or bands.
+void add_storage_option(CLI::App& command, ShapeStorage& storage);
+
 /// The shapes of these names, all when there are none. Throws Error for a name that is not there.
 [[nodiscard]] std::vector<const Shape*> choose_shapes(const ShapeLibrary& library,
                                                       std::span<const std::string> names);

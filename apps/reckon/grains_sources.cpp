@@ -31,6 +31,7 @@ struct MakeOptions {
   double node_spacing{0.1};
   std::uint32_t nodes{0};
   int threads{0};
+  ShapeStorage storage{ShapeStorage::full};
 };
 
 std::shared_ptr<MakeOptions> add_make_options(CLI::App& command) {
@@ -52,6 +53,7 @@ std::shared_ptr<MakeOptions> add_make_options(CLI::App& command) {
   command.add_option("--nodes", options->nodes, "Surface nodes per grain, whatever its size")
       ->excludes(spacing)
       ->check(CLI::Range(4, 10000000));
+  add_storage_option(command, options->storage);
   command.add_option("--threads", options->threads, "Threads (default: all)")
       ->check(CLI::Range(1, 4096));
   return options;
@@ -61,6 +63,7 @@ ShapeResolution resolution_of(const MakeOptions& options) {
   ShapeResolution resolution;
   resolution.voxels_per_diameter = options.voxels_per_diameter;
   resolution.node_spacing = options.node_spacing;
+  resolution.storage = options.storage;
   if (!options.voxel.empty()) resolution.voxel_size = parse_length("--voxel", options.voxel);
   if (options.nodes > 0) resolution.node_count = options.nodes;
   return resolution;
@@ -71,15 +74,14 @@ void make(const std::vector<ShapeSource>& sources, const MakeOptions& options) {
   const ShapeResolution resolution = resolution_of(options);
   (void)PendingFile{options.output};  // finds a missing folder before the work, not after it
   double seconds = 0;
-  ShapeLibrary library;
   {
     CountDisplay display{sources.size(), "grains"};
-    library = build_library(sources, resolution, [&](std::size_t done) { display.show(done); });
+    build_library_file(options.output, sources, resolution,
+                       [&](std::size_t done) { display.show(done); });
     seconds = display.seconds();
   }
-  save_library(options.output, library);
-  fmt::print("{}: {} {}, {}, {}\n", options.output, human_count(library.size()),
-             library.size() == 1 ? "grain" : "grains",
+  fmt::print("{}: {} {}, {}, {}\n", options.output, human_count(sources.size()),
+             sources.size() == 1 ? "grain" : "grains",
              human_bytes(std::filesystem::file_size(options.output)), human_duration(seconds));
 }
 

@@ -255,6 +255,35 @@ TEST(Engines, AgreeOnEverySimdLevel) {
   }
 }
 
+/// Shapes that are kept as bands, against the whole grids that hold the same.
+TEST(Engines, AgreeOnBandsAndWholeGrids) {
+  for (Scene scene : {dynamic_drop(), sheared_box(area_law())}) {
+    auto whole = std::make_shared<ShapeLibrary>();
+    std::vector<ShapeOutline> outlines;
+    for (const ShapeView& view : scene.setup.shapes.views()) {
+      whole->push_back(view.bounding_radius > 0.8 ? testing::bumpy_grain(1.0, 279, 18)
+                                                  : testing::box({0.6, 0.7, 0.8}, 7, 0.1));
+      round_to_band(whole->back());
+      outlines.push_back(outline_of(whole->back()));
+    }
+    SimulationSetup setup = scene.setup;
+    setup.shapes = ShapeStore{whole};
+    setup.engine = ContactEngine::plain;
+    Simulation expected{setup, scene.start};
+    for (int n = 0; n < 400; ++n) expected.step();
+    EXPECT_GT(expected.grain_contacts().counters().touching_nodes, 400U);
+    setup.shapes =
+        ShapeStore{Communicator{}, outlines, [&](ShapeId s) { return (*whole)[s.get()]; }};
+    for (const ContactEngine engine : {ContactEngine::plain, ContactEngine::near}) {
+      setup.engine = engine;
+      Simulation on_bands{setup, scene.start};
+      for (int n = 0; n < 400; ++n) on_bands.step();
+      expect_same_state(on_bands.state(), expected.state());
+    }
+    EXPECT_LT(setup.shapes.resident_bytes(), ShapeStore{whole}.resident_bytes() * 2);
+  }
+}
+
 /// The near engine alone, with a restart in the middle and looks in between, on some threads.
 TEST(Engines, AgreeAcrossThreadsRestartsAndLooks) {
   const int before = thread_count();

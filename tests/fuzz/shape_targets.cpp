@@ -31,7 +31,12 @@ Target shape_library_target() {
               [folder] {
                 const std::filesystem::path file = folder->path() / "valid.h5";
                 save_library(file, {small_ball("one"), small_ball("two")});
-                return std::vector<std::string>{read_file(file)};
+                std::vector<std::string> files{read_file(file)};
+                Shape band = small_ball("band");
+                round_to_band(band);
+                save_library(file, {band});
+                files.push_back(read_file(file));
+                return files;
               },
           .read =
               [folder](const std::string& input) {

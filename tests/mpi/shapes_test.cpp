@@ -65,7 +65,7 @@ void test(const Communicator& ranks) {
                std::all_of(values.begin(), values.end(),
                            [s](float value) { return value == static_cast<float>(s); }),
            ranks, "a shape is not what was read");
-    expect(store.views()[s].node_area.size() == 100, ranks, "nodes are missing");
+    expect(store.views()[s].nodes.size() == 100, ranks, "nodes are missing");
   }
   ranks.barrier();
   const std::int64_t grown = private_bytes() - before;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <optional>
 #include <set>
 #include <utility>
@@ -14,12 +15,13 @@
 #include "reckon/avatar/legacy_morphology.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/exact_sum.hpp"
+#include "reckon/core/file.hpp"
 #include "reckon/core/hdf5_file.hpp"
 
 namespace reckon {
 namespace {
 
-const Hdf5Kind library_kind{"shape library", 2};  // 2 added sphere_radius
+const Hdf5Kind library_kind{"shape library", 3};  // 2 added sphere_radius, 3 bands
 
 /// The scalar fields of a shape, each a dataset of one row per shape.
 struct ScalarField {
@@ -55,6 +57,8 @@ constexpr std::array scalar_fields{
 };
 
 constexpr const char* sphere_radius_field = "/shape/sphere_radius";
+constexpr const char* values_field = "/grid/values";
+constexpr const char* band_field = "/grid/band";
 
 struct VectorField {
   const char* name;
@@ -76,6 +80,9 @@ constexpr std::array node_fields{NodeField{"/node/x", "m", &SurfaceNodes::x},
                                  NodeField{"/node/z", "m", &SurfaceNodes::z},
                                  NodeField{"/node/area", "m^2", &SurfaceNodes::area}};
 
+/// Vertices of a grid that is read from a band.
+constexpr std::uint64_t largest_band = 1'000'000'000;
+
 [[noreturn]] void damaged(const std::filesystem::path& path, std::string reason) {
   throw Error{{.place = path.string(),
                .problem = "the shape library is damaged",
@@ -95,15 +102,8 @@ Shape table_row(const Shape& shape) {
   row.bounding_radius = shape.bounding_radius;
   row.lipschitz = shape.lipschitz;
   row.sphere_radius = shape.sphere_radius;
+  row.storage = shape.storage;
   return row;
-}
-
-/// Where each shape's rows begin, and after the last one the total.
-template <class Count>
-std::vector<std::uint64_t> first_rows(const ShapeLibrary& library, Count&& count) {
-  std::vector<std::uint64_t> first{0};
-  for (const Shape& shape : library) first.push_back(first.back() + count(shape));
-  return first;
 }
 
 void check_names(const std::filesystem::path& path, const ShapeLibrary& library) {
@@ -148,7 +148,9 @@ class LibraryReader {
         field.of(table_[s]) = {values[3 * s], values[3 * s + 1], values[3 * s + 2]};
       }
     }
-    first_value_ = read_first_rows("/shape/first_value", "/grid/values");
+    const bool in_band = file_.version() >= 3 && file_.has(band_field);
+    for (Shape& row : table_) row.storage = in_band ? ShapeStorage::band : ShapeStorage::full;
+    first_value_ = read_first_rows("/shape/first_value", in_band ? band_field : values_field);
     first_node_ = read_first_rows("/shape/first_node", "/node/x");
     for (const NodeField& field : node_fields) {
       if (file_.extents(field.name) != Hdf5Extents{first_node_.back()}) {
@@ -163,10 +165,9 @@ class LibraryReader {
 
   [[nodiscard]] ShapeSummary summary(std::size_t s) const {
     ShapeSummary summary{table_[s].name, outline_of(table_[s]), 0, digest_[s]};
-    const std::string place = file_.path().string() + ", shape " + table_[s].name;
-    check_outline(summary.outline, first_value_[s + 1] - first_value_[s], place);
-    std::vector<double> areas(first_node_[s + 1] - first_node_[s]);
-    file_.read_rows<double>("/node/area", first_node_[s], areas);
+    check_outline(summary.outline, grid_values(s), place(s));
+    if (summary.outline.storage == ShapeStorage::band) summary.outline.band_words = rows(s);
+    const std::vector<double> areas = column("/node/area", s);
     summary.outline.nodes = areas.size();
     summary.node_area = exact_sum(areas);
     return summary;
@@ -174,21 +175,56 @@ class LibraryReader {
 
   [[nodiscard]] Shape shape(std::size_t s) const {
     Shape shape = table_[s];
-    shape.level_set.values.resize(first_value_[s + 1] - first_value_[s]);
-    file_.read_rows<float>("/grid/values", first_value_[s], shape.level_set.values);
-    for (const NodeField& field : node_fields) {
-      auto& values = shape.nodes.*field.values;
-      values.resize(first_node_[s + 1] - first_node_[s]);
-      file_.read_rows<double>(field.name, first_node_[s], values);
+    if (shape.storage == ShapeStorage::band) {
+      check_outline(outline_of(shape), grid_values(s), place(s));
+      std::vector<LevelSetBand::Word> words(rows(s));
+      file_.read_rows<LevelSetBand::Word>(band_field, first_value_[s], words);
+      if (!is_band(shape.level_set.dims, words)) damaged(place(s), "its grid is not a band");
+      decode_band(words, shape.level_set);
+    } else {
+      shape.level_set.values.resize(rows(s));
+      file_.read_rows<float>(values_field, first_value_[s], shape.level_set.values);
     }
-    const std::string place = file_.path().string() + ", shape " + shape.name;
-    check_shape(shape, place);
-    if (shape_digest(shape) != digest_[s]) damaged(place, "its digest is not the stored one");
+    for (const NodeField& field : node_fields) {
+      shape.nodes.*field.values = column(field.name, s);
+    }
+    check_shape(shape, place(s));
+    if (shape_digest(shape) != digest_[s]) damaged(place(s), "its digest is not the stored one");
     shape.clusters = make_clusters(shape.nodes);
     return shape;
   }
 
  private:
+  [[nodiscard]] std::string place(std::size_t s) const {
+    return file_.path().string() + ", shape " + table_[s].name;
+  }
+  /// Of its grid: values or words.
+  [[nodiscard]] std::uint64_t rows(std::size_t s) const {
+    return first_value_[s + 1] - first_value_[s];
+  }
+  /// What dims must make. Those of a band follow from the dims alone; 0: no grid is as large.
+  [[nodiscard]] std::uint64_t grid_values(std::size_t s) const {
+    if (table_[s].storage == ShapeStorage::full) return rows(s);
+    std::uint64_t count = 1;
+    for (const std::int32_t dim : table_[s].level_set.dims) {
+      if (dim < 0 || static_cast<std::uint64_t>(dim) > largest_band / count) return 0;
+      count *= static_cast<std::uint64_t>(dim);
+      if (count == 0) return 0;
+    }
+    return count;
+  }
+  /// A column of a shape's nodes.
+  [[nodiscard]] std::vector<double> column(const char* name, std::size_t s) const {
+    std::vector<double> numbers(first_node_[s + 1] - first_node_[s]);
+    if (table_[s].storage == ShapeStorage::full) {
+      file_.read_rows<double>(name, first_node_[s], numbers);
+      return numbers;
+    }
+    std::vector<float> singles(numbers.size());
+    file_.read_rows<float>(name, first_node_[s], singles);
+    std::copy(singles.begin(), singles.end(), numbers.begin());
+    return numbers;
+  }
   /// A table of first rows that rises from 0 to the length of `data`.
   [[nodiscard]] std::vector<std::uint64_t> read_first_rows(const std::string& name,
                                                            const std::string& data) const {
@@ -209,68 +245,171 @@ class LibraryReader {
 
 }  // namespace
 
-void save_library(const std::filesystem::path& path, const ShapeLibrary& library) {
-  if (library.empty()) {
-    throw Error{{.place = path.string(),
+struct LibraryWriter::Impl {
+  Impl(const std::filesystem::path& path, ShapeStorage stored_as)
+      : storage{stored_as},
+        file{path, library_kind},
+        arrays{path.string() + ".arrays"},
+        spool{arrays.temporary(),
+              std::ios::binary | std::ios::in | std::ios::out | std::ios::trunc} {
+    spool.exceptions(std::ios::badbit | std::ios::failbit);
+  }
+
+  template <class Number, class Given>
+  void append(const std::vector<Given>& numbers) {
+    const std::vector<Number> kept(numbers.begin(), numbers.end());
+    spool.write(reinterpret_cast<const char*>(kept.data()),
+                static_cast<std::streamsize>(kept.size() * sizeof(Number)));
+  }
+  template <class Number>
+  void append_nodes(const SurfaceNodes& nodes) {
+    for (const NodeField& field : node_fields) append<Number>(nodes.*field.values);
+  }
+  template <class Number>
+  void write_grids(const char* name, std::string_view unit);
+  template <class Number>
+  void write_nodes();
+
+  ShapeStorage storage;
+  Hdf5Writer file;
+  PendingFile arrays;  // all shapes' grids and nodes, one after the other; never committed
+  std::fstream spool;
+  std::vector<std::uint64_t> first_byte{0};  // in the spool, by shape
+  ShapeLibrary table;
+  std::set<std::string> names;
+  std::vector<std::uint64_t> digests;
+  std::vector<std::uint64_t> first_value{0};
+  std::vector<std::uint64_t> first_node{0};
+};
+
+template <class Number>
+void LibraryWriter::Impl::write_grids(const char* name, std::string_view unit) {
+  file.create(name, hdf5_number<Number>(), {first_value.back()}, unit);
+  std::vector<Number> values;
+  for (std::size_t s = 0; s < table.size(); ++s) {
+    values.resize(first_value[s + 1] - first_value[s]);
+    spool.seekg(static_cast<std::streamoff>(first_byte[s]));
+    spool.read(reinterpret_cast<char*>(values.data()),
+               static_cast<std::streamsize>(values.size() * sizeof(Number)));
+    file.write_rows<Number>(name, first_value[s], values);
+  }
+}
+
+template <class Number>
+void LibraryWriter::Impl::write_nodes() {
+  std::vector<Number> values;
+  for (std::size_t field = 0; field < node_fields.size(); ++field) {
+    file.create(node_fields[field].name, hdf5_number<Number>(), {first_node.back()},
+                node_fields[field].unit);
+    for (std::size_t s = 0; s < table.size(); ++s) {
+      values.resize(first_node[s + 1] - first_node[s]);
+      const std::uint64_t column = values.size() * sizeof(Number);
+      spool.seekg(
+          static_cast<std::streamoff>(first_byte[s + 1] - (node_fields.size() - field) * column));
+      spool.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(column));
+      file.write_rows<Number>(node_fields[field].name, first_node[s], values);
+    }
+  }
+}
+
+LibraryWriter::LibraryWriter(const std::filesystem::path& path, ShapeStorage storage)
+    : impl_{std::make_unique<Impl>(path, storage)} {}
+LibraryWriter::~LibraryWriter() = default;
+
+void LibraryWriter::add(const Shape& shape) {
+  Impl& own = *impl_;
+  const std::string place = "shape " + shape.name;
+  check_shape(shape, place);
+  if (shape.name.empty() || !own.names.insert(shape.name).second) {
+    throw Error{{.place = own.file.target().string(),
+                 .problem = shape.name.empty() ? "a shape has no name"
+                                               : "two shapes are named " + shape.name,
+                 .reason = "scenes pick shapes by name",
+                 .fix = "Rename the sources."}};
+  }
+  if (shape.storage != own.storage) {
+    throw Error{{.place = own.file.target().string(),
+                 .problem = place + " is stored in another way than those before it",
+                 .reason = "a library holds whole grids or bands",
+                 .fix = "Make all shapes with the same storage."}};
+  }
+  try {
+    if (own.storage == ShapeStorage::band) {
+      const auto words = encode_band(shape.level_set);
+      own.append<LevelSetBand::Word>(words);
+      own.append_nodes<float>(shape.nodes);
+      own.first_value.push_back(own.first_value.back() + words.size());
+    } else {
+      own.append<float>(shape.level_set.values);
+      own.append_nodes<double>(shape.nodes);
+      own.first_value.push_back(own.first_value.back() + shape.level_set.values.size());
+    }
+    own.first_byte.push_back(static_cast<std::uint64_t>(own.spool.tellp()));
+  } catch (const std::ios::failure&) {
+    throw Error{{.place = own.file.target().string(),
+                 .problem = "cannot be written",
+                 .reason = "its arrays do not fit beside it: is the disk full?",
+                 .fix = "Make room, or write elsewhere."}};
+  }
+  own.first_node.push_back(own.first_node.back() + shape.nodes.size());
+  own.table.push_back(table_row(shape));
+  own.digests.push_back(shape_digest(shape));
+}
+
+void LibraryWriter::finish() {
+  Impl& own = *impl_;
+  Hdf5Writer& file = own.file;
+  if (own.table.empty()) {
+    throw Error{{.place = file.target().string(),
                  .problem = "a shape library needs at least one shape",
                  .reason = {},
                  .fix = "Give at least one source."}};
   }
-  check_names(path, library);
-  for (const Shape& shape : library) check_shape(shape, "shape " + shape.name);
-
-  const std::uint64_t count = library.size();
-  Hdf5Writer file{path, library_kind};
+  const std::uint64_t count = own.table.size();
   file.write_note("title",
                   "Grain shapes: signed-distance grids (negative inside, x fastest) and "
                   "surface nodes in principal body frames");
-  ShapeLibrary table;
   std::vector<std::string> names;
   std::vector<std::int32_t> dims;
-  std::vector<std::uint64_t> digests;
-  for (const Shape& shape : library) {
-    table.push_back(table_row(shape));
+  std::vector<double> radii;
+  for (const Shape& shape : own.table) {
     names.push_back(shape.name);
     dims.insert(dims.end(), shape.level_set.dims.begin(), shape.level_set.dims.end());
-    digests.push_back(shape_digest(shape));
+    radii.push_back(shape.sphere_radius);
   }
   file.write_texts("/shape/name", names);
   file.write("/shape/dims", dims, {count, 3}, "1");
-  file.write("/shape/digest", digests, {count}, "1");
+  file.write("/shape/digest", own.digests, {count}, "1");
   for (const ScalarField& field : scalar_fields) {
     std::vector<double> values;
-    for (Shape& shape : table) values.push_back(field.of(shape));
+    for (Shape& shape : own.table) values.push_back(field.of(shape));
     file.write(field.name, values, {count}, field.unit);
   }
-  std::vector<double> radii;
-  for (const Shape& shape : library) radii.push_back(shape.sphere_radius);
   file.write(sphere_radius_field, radii, {count}, "m");
   for (const VectorField& field : vector_fields) {
     std::vector<double> values;
-    for (Shape& shape : table) {
+    for (Shape& shape : own.table) {
       const Vec3& v = field.of(shape);
       values.insert(values.end(), {v.x, v.y, v.z});
     }
     file.write(field.name, values, {count, 3}, field.unit);
   }
-  const auto first_value =
-      first_rows(library, [](const Shape& shape) { return shape.level_set.values.size(); });
-  const auto first_node =
-      first_rows(library, [](const Shape& shape) { return shape.nodes.size(); });
-  file.write("/shape/first_value", first_value, {count + 1}, "1");
-  file.write("/shape/first_node", first_node, {count + 1}, "1");
-
-  file.create("/grid/values", Hdf5Number::float32, {first_value.back()}, "m");
-  for (std::size_t s = 0; s < count; ++s) {
-    file.write_rows<float>("/grid/values", first_value[s], library[s].level_set.values);
-  }
-  for (const NodeField& field : node_fields) {
-    file.create(field.name, Hdf5Number::float64, {first_node.back()}, field.unit);
-    for (std::size_t s = 0; s < count; ++s) {
-      file.write_rows<double>(field.name, first_node[s], library[s].nodes.*field.values);
-    }
+  file.write("/shape/first_value", own.first_value, {count + 1}, "1");
+  file.write("/shape/first_node", own.first_node, {count + 1}, "1");
+  if (own.storage == ShapeStorage::band) {
+    own.write_grids<LevelSetBand::Word>(band_field, "1");
+    own.write_nodes<float>();
+  } else {
+    own.write_grids<float>(values_field, "m");
+    own.write_nodes<double>();
   }
   file.finish();
+}
+
+void save_library(const std::filesystem::path& path, const ShapeLibrary& library) {
+  LibraryWriter writer{path, library.empty() ? ShapeStorage::full : library.front().storage};
+  for (const Shape& shape : library) writer.add(shape);
+  writer.finish();
 }
 
 ShapeLibrary load_library(const std::filesystem::path& path, double legacy_voxel) {

@@ -27,18 +27,38 @@ void check_shape(const Shape& shape, const std::string& place);
 /// The part of check_shape that needs no grid and no nodes; `values` is the number of grid values.
 void check_outline(const ShapeOutline& outline, std::uint64_t values, const std::string& place);
 
-/// Writes a shape library: a sealed HDF5 file (core/hdf5_file.hpp) in which all shapes' grids lie
-/// behind each other in one dataset and all nodes in four, with a table of where each begins, so
-/// that thousands of shapes load fast and any of them can be loaded alone.
+/// Writes a shape library, shape by shape, so that no more than one needs to be in memory: a sealed
+/// HDF5 file (core/hdf5_file.hpp) in which all shapes' grids lie behind each other in one dataset
+/// and all nodes in four, with a table of where each begins, so that thousands of shapes load fast
+/// and any of them can be loaded alone.
 ///
 ///   /shape/{name, dims, spacing, origin, first_value, first_node, volume, inertia,
 ///           bounding_radius, lipschitz, digest}                            one row per shape
 ///   /descriptor/{length, width, ...}                                       one row per shape
 ///   /grid/values     signed distances; shape s has first_value[s] ... first_value[s+1] - 1
-///   /node/{x, y, z, area}           likewise with first_node
+///   /grid/band       or, where the shapes are stored as bands, the words of those
+///   /node/{x, y, z, area}           likewise with first_node; of bands in single precision
 ///
-/// Every dataset has a `unit`. Clusters are not stored: they follow from the nodes. Throws Error
-/// when the library is empty, two shapes share a name, or a shape fails check_shape.
+/// Every dataset has a `unit`. Clusters are not stored: they follow from the nodes.
+class LibraryWriter {
+ public:
+  LibraryWriter(const std::filesystem::path& path, ShapeStorage storage);
+  ~LibraryWriter();
+  LibraryWriter(const LibraryWriter&) = delete;
+  LibraryWriter& operator=(const LibraryWriter&) = delete;
+
+  /// Throws Error when the shape fails check_shape, is stored otherwise, or has the name of one
+  /// before it.
+  void add(const Shape& shape);
+  /// Until then there is no file. Throws Error when there are no shapes.
+  void finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Writes shapes that are all in memory, stored as the first of them is.
 void save_library(const std::filesystem::path& path, const ShapeLibrary& library);
 
 /// All shapes of a library file, or of a folder of legacy morphology files (morph_1.dat,

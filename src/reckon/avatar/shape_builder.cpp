@@ -175,6 +175,7 @@ Shape build_shape(const TriangleMesh& mesh, const ShapeResolution& resolution,
       resolution.node_count ? *resolution.node_count : std::ceil(solid.surface_area / node_area);
   add_nodes(shape, body_mesh, bvh, static_cast<std::size_t>(wanted));
   shape.descriptors = describe_shape(body_mesh, bvh, solid, shape.level_set);
+  if (resolution.storage == ShapeStorage::band) round_to_band(shape);
   return shape;
 }
 

@@ -19,6 +19,7 @@ struct ShapeResolution {
   std::optional<double> voxel_size{};         ///< overrides voxels_per_diameter [m]
   double node_spacing{0.1};                   ///< root of a node's mean area, in diameters
   std::optional<std::uint32_t> node_count{};  ///< overrides node_spacing; >= 4
+  ShapeStorage storage{ShapeStorage::full};
 };
 
 /// Turns a closed surface into a shape.

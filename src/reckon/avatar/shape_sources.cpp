@@ -13,6 +13,7 @@
 #include "reckon/avatar/analytic.hpp"
 #include "reckon/avatar/geodesic_sphere.hpp"
 #include "reckon/avatar/level_set_text.hpp"
+#include "reckon/avatar/library_file.hpp"
 #include "reckon/avatar/mesh_reader.hpp"
 #include "reckon/avatar/mesh_validation.hpp"
 #include "reckon/avatar/spherical_harmonics.hpp"
@@ -154,8 +155,9 @@ std::map<std::string, std::uint32_t> parse_degree_table(std::string_view text,
   return degrees;
 }
 
-ShapeLibrary build_library(std::span<const ShapeSource> sources, const ShapeResolution& resolution,
-                           const std::function<void(std::size_t done)>& on_progress) {
+namespace {
+
+void require_distinct_names(std::span<const ShapeSource> sources) {
   std::set<std::string_view> names;
   for (const ShapeSource& source : sources) {
     if (!names.insert(source.name).second) {
@@ -165,6 +167,13 @@ ShapeLibrary build_library(std::span<const ShapeSource> sources, const ShapeReso
                    .fix = "Rename one of the files."}};
     }
   }
+}
+
+}  // namespace
+
+ShapeLibrary build_library(std::span<const ShapeSource> sources, const ShapeResolution& resolution,
+                           const std::function<void(std::size_t done)>& on_progress) {
+  require_distinct_names(sources);
   ShapeLibrary library(sources.size());
   std::mutex mutex;
   std::size_t done = 0;
@@ -185,6 +194,22 @@ ShapeLibrary build_library(std::span<const ShapeSource> sources, const ShapeReso
     for (std::size_t s = 0; s < sources.size(); ++s) build(s);
   }
   return library;
+}
+
+void build_library_file(const std::filesystem::path& path, std::span<const ShapeSource> sources,
+                        const ShapeResolution& resolution,
+                        const std::function<void(std::size_t done)>& on_progress) {
+  require_distinct_names(sources);
+  LibraryWriter writer{path, resolution.storage};
+  const std::size_t at_a_time = 32 * static_cast<std::size_t>(thread_count());
+  for (std::size_t first = 0; first < sources.size(); first += at_a_time) {
+    const auto some = sources.subspan(first, std::min(at_a_time, sources.size() - first));
+    const ShapeLibrary built = build_library(some, resolution, [&](std::size_t done) {
+      if (on_progress) on_progress(first + done);
+    });
+    for (const Shape& shape : built) writer.add(shape);
+  }
+  writer.finish();
 }
 
 }  // namespace reckon

@@ -64,4 +64,10 @@ struct ShapeSource {
     std::span<const ShapeSource> sources, const ShapeResolution& resolution,
     const std::function<void(std::size_t done)>& on_progress = {});
 
+/// Builds all shapes and writes them to a library file, some at a time, so that the library need
+/// not fit into memory. Throws and tells as build_library.
+void build_library_file(const std::filesystem::path& path, std::span<const ShapeSource> sources,
+                        const ShapeResolution& resolution,
+                        const std::function<void(std::size_t done)>& on_progress = {});
+
 }  // namespace reckon

@@ -54,8 +54,9 @@ void find_wall_touches(const GrainFrame& grain, const Wall& wall, const WallPose
   std::visit(
       [&](const auto& surface) {
         const Vec3 center = grain.position - pose.displacement;
-        for (NodeIndex n = 0; n < shape.node_x.size(); ++n) {
-          test_node(grain, wall, surface, center, n, shape.node(n), shape.node_area[n], touches);
+        for (NodeIndex n = 0; n < shape.nodes.size(); ++n) {
+          test_node(grain, wall, surface, center, n, shape.nodes.position(n), shape.nodes.area[n],
+                    touches);
         }
       },
       wall.surface);
@@ -120,13 +121,13 @@ void NearWall::make(const GrainFrame& grain, const Wall& wall, const Pose& pose,
           }
           for (NodeIndex n = cluster.first; n < cluster.first + cluster.count; ++n) {
             ++counters.searched_nodes;
-            const double node_bound = clearance(shape.node(n));
+            const double node_bound = clearance(shape.nodes.position(n));
             if (node_bound > skin) {
               rest = std::min(rest, node_bound);
               continue;
             }
-            found.push_back(
-                {{shape.node(n), shape.node_area[n], n}, odometer + std::max(node_bound, 0.0)});
+            found.push_back({{shape.nodes.position(n), shape.nodes.area[n], n},
+                             odometer + std::max(node_bound, 0.0)});
           }
         }
       },

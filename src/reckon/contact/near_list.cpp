@@ -23,17 +23,19 @@ double rounding_margin(double both_radii, double odometer) {
 /// The bound of a cluster whose nodes have been looked at one by one.
 constexpr float opened = std::numeric_limits<float>::infinity();
 
+float single(double number) { return static_cast<float>(number); }
+
 /// Clusters as a filter takes them.
 struct ClusterSpheres {
-  std::vector<double> x, y, z, radius;
+  std::vector<float> x, y, z, radius;
 
-  void copy(std::span<const NodeCluster> clusters) {
+  void copy(std::span<const NodeCluster> clusters, double cells_per_metre) {
     for (auto* const values : {&x, &y, &z, &radius}) values->resize(clusters.size());
     for (std::size_t c = 0; c < clusters.size(); ++c) {
-      x[c] = clusters[c].center_body.x;
-      y[c] = clusters[c].center_body.y;
-      z[c] = clusters[c].center_body.z;
-      radius[c] = clusters[c].radius;
+      x[c] = single(clusters[c].center_body.x);
+      y[c] = single(clusters[c].center_body.y);
+      z[c] = single(clusters[c].center_body.z);
+      radius[c] = single(clusters[c].radius * cells_per_metre);
     }
   }
   [[nodiscard]] FilterPoints points() const {
@@ -117,20 +119,26 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Place
   thread_local ClusterSpheres clusters;
   thread_local std::vector<float> bounds;
   found.clear();
-  clusters.copy(master.clusters);
   bounds.resize(master.clusters.size());
   const double skin = list_skin(master);
   const FilterTarget target{slave, at, master.bounding_radius, skin};
+  clusters.copy(master.clusters, target.inverse_spacing);
   const auto metres = [&](float bound) { return target.in_metres(bound) - margin; };
   double rest = wake_never;
   const auto open = [&](const NodeCluster& cluster) {
+    std::array<float, nodes_per_cluster> x{};
+    std::array<float, nodes_per_cluster> y{};
+    std::array<float, nodes_per_cluster> z{};
     std::array<float, nodes_per_cluster> bound{};
     for (NodeIndex first = cluster.first; first < cluster.first + cluster.count;
          first += nodes_per_cluster) {
       const std::size_t count = std::min(nodes_per_cluster, cluster.first + cluster.count - first);
-      filter(target,
-             {&master.node_x[first], &master.node_y[first], &master.node_z[first], nullptr, count},
-             bound.data());
+      for (std::size_t n = 0; n < count; ++n) {
+        x[n] = single(master.nodes.x[first + n]);
+        y[n] = single(master.nodes.y[first + n]);
+        z[n] = single(master.nodes.z[first + n]);
+      }
+      filter(target, {x.data(), y.data(), z.data(), nullptr, count}, bound.data());
       counters.searched_nodes += count;
       for (NodeIndex n = 0; n < count; ++n) {
         const double clearance = metres(bound[n]);
@@ -167,9 +175,10 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Place
                 at, odometer, rest, found.size());
   for (std::size_t n = 0; n < found.size(); ++n) {
     const NodeIndex node = found[n].node;
-    list_.set_node(n,
-                   {.place_body = master.node(node), .area = master.node_area[node], .node = node},
-                   odometer + std::max(found[n].clearance, 0.0));
+    list_.set_node(
+        n,
+        {.place_body = master.nodes.position(node), .area = master.nodes.area[node], .node = node},
+        odometer + std::max(found[n].clearance, 0.0));
   }
 }
 

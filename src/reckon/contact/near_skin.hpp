@@ -23,7 +23,7 @@ inline constexpr double list_lifetime = 0.75;
 /// on fine shapes as on coarse ones.
 [[nodiscard]] inline double list_skin(const ShapeView& shape) {
   constexpr double share_of_spacing = 0.25;
-  const double count = static_cast<double>(shape.node_x.size()) + 1;
+  const double count = static_cast<double>(shape.nodes.size()) + 1;
   return share_of_spacing * shape.bounding_radius * std::sqrt(4 * std::numbers::pi / count);
 }
 

@@ -21,8 +21,8 @@ void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector
   }
   const Placement at = place(master, slave);
   const double radius_squared = other.bounding_radius * other.bounding_radius;
-  for (std::size_t n = 0; n < shape.node_x.size(); ++n) {
-    const Vec3 node_body{shape.node_x[n], shape.node_y[n], shape.node_z[n]};
+  for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
+    const Vec3 node_body = shape.nodes.position(n);
     const Vec3 point = at.turn * node_body + at.shift;
     if (!(squared_norm(point) < radius_squared)) continue;
     const auto where = grid.locate(point);
@@ -32,7 +32,7 @@ void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector
     if (!(phi < 0)) continue;
     const Vec3 gradient_body = grid.inverse_spacing * cell.gradient(where.x, where.y, where.z);
     touches.push_back({static_cast<NodeIndex>(n), phi, slave.rotation * gradient_body,
-                       master.rotation * node_body, shape.node_area[n]});
+                       master.rotation * node_body, shape.nodes.area[n]});
   }
 }
 

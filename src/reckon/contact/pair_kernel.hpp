@@ -87,7 +87,7 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
   auto old = old_springs.begin();
   const auto let_go = [&](const NodeSpring& spring) {
     sum.friction +=
-        law.stored_shear_energy(spring.shear_force, master_shape.node_area[spring.node]);
+        law.stored_shear_energy(spring.shear_force, master_shape.nodes.area[spring.node]);
   };
   for (const Touch& touch : touches) {
     const double steepness = norm(touch.gradient_world);

@@ -20,6 +20,14 @@ Place place_in(float g, std::int32_t last_cell) {
 
 float between(float low, float high, float part) { return low + part * (high - low); }
 
+std::array<float, 8> corners(const FilterTarget& t, std::int32_t i, std::int32_t j,
+                             std::int32_t k) {
+  if (t.band != nullptr) return t.band->corners(i, j, k);
+  const float* const v = t.values + (i + j * t.row + k * t.layer);
+  const float* const w = v + t.layer;
+  return {v[0], v[1], v[t.row], v[t.row + 1], w[0], w[1], w[t.row], w[t.row + 1]};
+}
+
 /// One point; the vector variants do just this. `r` is the radius around it.
 float clearance_of(const FilterTarget& t, float x, float y, float z, float r) {
   std::array<float, 3> g{};
@@ -41,11 +49,11 @@ float clearance_of(const FilterTarget& t, float x, float y, float z, float r) {
   const Place px = place_in(inside[0], t.last_cell[0]);
   const Place py = place_in(inside[1], t.last_cell[1]);
   const Place pz = place_in(inside[2], t.last_cell[2]);
-  const float* const v = t.values + (px.cell + py.cell * t.row + pz.cell * t.layer);
+  const std::array<float, 8> v = corners(t, px.cell, py.cell, pz.cell);
   const float v00 = between(v[0], v[1], px.part);
-  const float v10 = between(v[t.row], v[t.row + 1], px.part);
-  const float v01 = between(v[t.layer], v[t.layer + 1], px.part);
-  const float v11 = between(v[t.layer + t.row], v[t.layer + t.row + 1], px.part);
+  const float v10 = between(v[2], v[3], px.part);
+  const float v01 = between(v[4], v[5], px.part);
+  const float v11 = between(v[6], v[7], px.part);
   const float phi = between(between(v00, v10, py.part), between(v01, v11, py.part), pz.part);
   const float from_phi = phi * t.phi_to_clearance;
   const float positive = std::max(from_phi, 0.0F);
@@ -54,12 +62,9 @@ float clearance_of(const FilterTarget& t, float x, float y, float z, float r) {
 }
 
 void scalar_filter(const FilterTarget& target, const FilterPoints& points, float* clearance) {
-  const auto single = [](double length) { return static_cast<float>(length); };
   for (std::size_t n = 0; n < points.count; ++n) {
-    const float radius =
-        points.radius == nullptr ? 0.0F : single(points.radius[n] * target.inverse_spacing);
-    clearance[n] =
-        clearance_of(target, single(points.x[n]), single(points.y[n]), single(points.z[n]), radius);
+    const float radius = points.radius == nullptr ? 0.0F : points.radius[n];
+    clearance[n] = clearance_of(target, points.x[n], points.y[n], points.z[n], radius);
   }
 }
 
@@ -67,7 +72,9 @@ void scalar_filter(const FilterTarget& target, const FilterPoints& points, float
 
 FilterTarget::FilterTarget(const ShapeView& grain, const Placement& at, double master_radius,
                            double skin_metres)
-    : values{grain.level_set.values.data()}, spacing{grain.level_set.spacing} {
+    : values{grain.level_set.values.data()},
+      band{grain.level_set.band},
+      spacing{grain.level_set.spacing} {
   const LevelSetView& grid = grain.level_set;
   inverse_spacing = 1 / spacing;
   const auto in_cells = [this](double length) {

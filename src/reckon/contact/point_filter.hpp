@@ -23,14 +23,15 @@ struct FilterTarget {
   float radius{0};                ///< of the bounding sphere [cells]
   std::array<float, 3> high{};    ///< the last vertex [cells]
   std::array<std::int32_t, 3> last_cell{};
-  std::int32_t row{0};           ///< vertices along x
-  std::int32_t layer{0};         ///< vertices along x times those along y
-  const float* values{nullptr};  ///< [m]
-  float phi_to_clearance{0};     ///< [cells/m]
-  float skin{0};                 ///< points farther from the sphere are not looked up [cells]
-  double spacing{0};             ///< a cell's edge [m]
-  double inverse_spacing{0};     ///< [1/m]
-  double margin{0};              ///< more than single precision may be off by [cells]
+  std::int32_t row{0};                ///< vertices along x
+  std::int32_t layer{0};              ///< vertices along x times those along y
+  const float* values{nullptr};       ///< of the whole grid [m]
+  const LevelSetBand* band{nullptr};  ///< or a band of them
+  float phi_to_clearance{0};          ///< [cells/m]
+  float skin{0};                      ///< points farther from the sphere are not looked up [cells]
+  double spacing{0};                  ///< a cell's edge [m]
+  double inverse_spacing{0};          ///< [1/m]
+  double margin{0};                   ///< more than single precision may be off by [cells]
 
   /// A lower bound in metres from a filter's answer.
   [[nodiscard]] double in_metres(float cells) const {
@@ -38,12 +39,12 @@ struct FilterTarget {
   }
 };
 
-/// Points of the master's body frame, one array per coordinate, each with a sphere around it.
+/// Points of the master's body frame, one array per coordinate [m], each with a sphere around it.
 struct FilterPoints {
-  const double* x;
-  const double* y;
-  const double* z;
-  const double* radius;  ///< null: all zero
+  const float* x;
+  const float* y;
+  const float* z;
+  const float* radius;  ///< in cells of the target; null: all zero
   std::size_t count;
 };
 

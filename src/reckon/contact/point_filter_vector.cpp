@@ -41,21 +41,14 @@ HWY_INLINE FloatVector squared_norm(FloatVector x, FloatVector y, FloatVector z)
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-/// phi at points of the grid. Plain loads: they beat the gathers of today's machines.
-HWY_INLINE FloatVector phi_at(const FilterTarget& t, FloatVector x, FloatVector y, FloatVector z) {
-  const Floats d;
+/// The corners of cells. Plain loads: they beat the gathers of today's machines.
+HWY_INLINE void gather_from_grid(const FilterTarget& t, IntVector i, IntVector j, IntVector k,
+                                 Lanes<8>& corner) {
   const Ints di;
-  const auto cell_of = [&](FloatVector g, std::size_t axis) HWY_ATTR {
-    return hn::Min(hn::ConvertTo(di, g), hn::Set(di, t.last_cell[axis]));
-  };
-  const IntVector i = cell_of(x, 0);
-  const IntVector j = cell_of(y, 1);
-  const IntVector k = cell_of(z, 2);
   alignas(64) std::array<std::int32_t, block> first{};
   hn::Store(hn::Add(hn::Add(i, hn::Mul(j, hn::Set(di, t.row))), hn::Mul(k, hn::Set(di, t.layer))),
             di, first.data());
-  Lanes<8> corner;
-  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+  for (std::size_t lane = 0; lane < hn::Lanes(di); ++lane) {
     const float* const v = t.values + first[lane];
     const float* const w = v + t.layer;
     corner.of[0][lane] = v[0];
@@ -66,6 +59,37 @@ HWY_INLINE FloatVector phi_at(const FilterTarget& t, FloatVector x, FloatVector 
     corner.of[5][lane] = w[1];
     corner.of[6][lane] = w[t.row];
     corner.of[7][lane] = w[t.row + 1];
+  }
+}
+
+void gather_from_band(const FilterTarget& t, IntVector i, IntVector j, IntVector k,
+                      Lanes<8>& corner) {
+  const Ints di;
+  alignas(64) std::array<std::array<std::int32_t, block>, 3> cell{};
+  hn::Store(i, di, cell[0].data());
+  hn::Store(j, di, cell[1].data());
+  hn::Store(k, di, cell[2].data());
+  for (std::size_t lane = 0; lane < hn::Lanes(di); ++lane) {
+    const auto phi = t.band->corners(cell[0][lane], cell[1][lane], cell[2][lane]);
+    for (std::size_t c = 0; c < 8; ++c) corner.of[c][lane] = phi[c];
+  }
+}
+
+/// phi at points of the grid.
+HWY_INLINE FloatVector phi_at(const FilterTarget& t, FloatVector x, FloatVector y, FloatVector z) {
+  const Floats d;
+  const Ints di;
+  const auto cell_of = [&](FloatVector g, std::size_t axis) HWY_ATTR {
+    return hn::Min(hn::ConvertTo(di, g), hn::Set(di, t.last_cell[axis]));
+  };
+  const IntVector i = cell_of(x, 0);
+  const IntVector j = cell_of(y, 1);
+  const IntVector k = cell_of(z, 2);
+  Lanes<8> corner;
+  if (t.band != nullptr) {
+    gather_from_band(t, i, j, k, corner);
+  } else {
+    gather_from_grid(t, i, j, k, corner);
   }
   const auto along_x = [&](std::size_t c, FloatVector part) HWY_ATTR {
     return between(hn::Load(d, corner.of[c].data()), hn::Load(d, corner.of[c + 1].data()), part);
@@ -120,14 +144,10 @@ void filter(const FilterTarget& target, const FilterPoints& points, float* clear
   for (std::size_t first = 0; first < points.count; first += block) {
     const std::size_t count = std::min(block, points.count - first);
     // What a shorter last block leaves beyond its end is of the block before: harmless.
-    for (std::size_t n = 0; n < count; ++n) {
-      point.of[0][n] = static_cast<float>(points.x[first + n]);
-      point.of[1][n] = static_cast<float>(points.y[first + n]);
-      point.of[2][n] = static_cast<float>(points.z[first + n]);
-    }
-    for (std::size_t n = 0; n < count && points.radius != nullptr; ++n) {
-      point.of[3][n] = static_cast<float>(points.radius[first + n] * target.inverse_spacing);
-    }
+    std::copy_n(points.x + first, count, point.of[0].begin());
+    std::copy_n(points.y + first, count, point.of[1].begin());
+    std::copy_n(points.z + first, count, point.of[2].begin());
+    if (points.radius != nullptr) std::copy_n(points.radius + first, count, point.of[3].begin());
     for (std::size_t n = 0; n < count; n += hn::Lanes(d)) {
       const auto load = [&](std::size_t c) HWY_ATTR { return hn::Load(d, point.of[c].data() + n); };
       hn::Store(clearances_of(target, load(0), load(1), load(2), load(3)), d, found.data() + n);

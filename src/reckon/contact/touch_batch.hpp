@@ -99,7 +99,7 @@ DirectedForce TouchBatch::sum(std::size_t member, const Law& law,
   auto old = old_springs.begin();
   const auto let_go = [&](const NodeSpring& spring) {
     sum.friction +=
-        law.stored_shear_energy(spring.shear_force, master_shape.node_area[spring.node]);
+        law.stored_shear_energy(spring.shear_force, master_shape.nodes.area[spring.node]);
   };
   for (std::size_t n = m.first; n < m.first + m.context.touching; ++n) {
     const TouchLanes& block = blocks_[n / TouchLanes::width];

@@ -43,6 +43,8 @@ hid_t native_type(Hdf5Number type) {
       return H5T_NATIVE_UINT64;
     case Hdf5Number::uint8:
       return H5T_NATIVE_UINT8;
+    case Hdf5Number::uint16:
+      return H5T_NATIVE_UINT16;
   }
   return -1;
 }

@@ -27,13 +27,22 @@ namespace reckon {
 /// every damaged file.
 
 /// The number types that datasets may have.
-enum class Hdf5Number : std::uint8_t { float32, float64, int32, uint32, int64, uint64, uint8 };
+enum class Hdf5Number : std::uint8_t {
+  float32,
+  float64,
+  int32,
+  uint32,
+  int64,
+  uint64,
+  uint8,
+  uint16
+};
 
 template <class Number>
 concept Hdf5Storable = std::same_as<Number, float> || std::same_as<Number, double> ||
     std::same_as<Number, std::int32_t> || std::same_as<Number, std::uint32_t> ||
     std::same_as<Number, std::int64_t> || std::same_as<Number, std::uint64_t> ||
-    std::same_as<Number, std::uint8_t>;
+    std::same_as<Number, std::uint8_t> || std::same_as<Number, std::uint16_t>;
 
 template <Hdf5Storable Number>
 [[nodiscard]] constexpr Hdf5Number hdf5_number() {
@@ -43,6 +52,7 @@ template <Hdf5Storable Number>
   if constexpr (std::same_as<Number, std::uint32_t>) return Hdf5Number::uint32;
   if constexpr (std::same_as<Number, std::int64_t>) return Hdf5Number::int64;
   if constexpr (std::same_as<Number, std::uint64_t>) return Hdf5Number::uint64;
+  if constexpr (std::same_as<Number, std::uint16_t>) return Hdf5Number::uint16;
   return Hdf5Number::uint8;
 }
 
@@ -87,6 +97,8 @@ class Hdf5Writer {
   void write_note(const std::string& name, const std::string& text);
 
   void finish();
+
+  [[nodiscard]] const std::filesystem::path& target() const { return pending_.target(); }
 
  private:
   void write_raw(const std::string& name, std::uint64_t first, Hdf5Number type, const void* values,

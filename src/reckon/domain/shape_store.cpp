@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <deque>
 #include <exception>
 #include <string>
 #include <utility>
@@ -36,47 +37,61 @@ class Parts {
   std::size_t used_{0};
 };
 
+/// Where a shape's arrays lie: those of its storage, the others are empty.
 struct ShapeParts {
   std::span<float> values;
   std::array<std::span<double>, 4> nodes;  // x, y, z, area
+  std::span<LevelSetBand::Word> band;
+  std::array<std::span<float>, 4> band_nodes;
   std::span<NodeCluster> clusters;
 };
 
 ShapeParts take_parts(Parts& parts, const ShapeOutline& outline) {
   ShapeParts shape;
-  shape.values = parts.take<float>(outline.values());
-  for (auto& column : shape.nodes) column = parts.take<double>(outline.nodes);
+  if (outline.storage == ShapeStorage::band) {
+    shape.band = parts.take<LevelSetBand::Word>(outline.band_words);
+    for (auto& column : shape.band_nodes) column = parts.take<float>(outline.nodes);
+  } else {
+    shape.values = parts.take<float>(outline.values());
+    for (auto& column : shape.nodes) column = parts.take<double>(outline.nodes);
+  }
   shape.clusters =
       parts.take<NodeCluster>((outline.nodes + nodes_per_cluster - 1) / nodes_per_cluster);
   return shape;
 }
 
-template <class Value>
-void fill(std::span<Value> part, const std::vector<Value>& values) {
+template <class Value, class Given>
+void fill(std::span<Value> part, const std::vector<Given>& values) {
   if (part.size() != values.size()) {
     throw Error{{.problem = "a shape has changed while it was in use",
                  .reason = "its arrays have another length than at the start",
                  .fix = "Leave the shape library alone during a run."}};
   }
-  std::copy(values.begin(), values.end(), part.begin());
+  std::transform(values.begin(), values.end(), part.begin(),
+                 [](Given value) { return static_cast<Value>(value); });
 }
 
 void fill(const ShapeParts& parts, const Shape& shape) {
-  fill(parts.values, shape.level_set.values);
-  fill(parts.nodes[0], shape.nodes.x);
-  fill(parts.nodes[1], shape.nodes.y);
-  fill(parts.nodes[2], shape.nodes.z);
-  fill(parts.nodes[3], shape.nodes.area);
+  const auto fill_nodes = [&](const auto& columns) {
+    fill(columns[0], shape.nodes.x);
+    fill(columns[1], shape.nodes.y);
+    fill(columns[2], shape.nodes.z);
+    fill(columns[3], shape.nodes.area);
+  };
+  if (shape.storage == ShapeStorage::band) {
+    fill(parts.band, encode_band(shape.level_set));
+    fill_nodes(parts.band_nodes);
+  } else {
+    fill(parts.values, shape.level_set.values);
+    fill_nodes(parts.nodes);
+  }
   fill(parts.clusters, shape.clusters);
 }
 
-void show(const ShapeParts& parts, ShapeView& view) {
-  view.level_set.values = parts.values;
-  view.node_x = parts.nodes[0];
-  view.node_y = parts.nodes[1];
-  view.node_z = parts.nodes[2];
-  view.node_area = parts.nodes[3];
-  view.clusters = parts.clusters;
+template <class Number>
+SurfaceNodesView nodes_in(const std::array<std::span<Number>, 4>& columns) {
+  const auto column = [&](std::size_t c) { return std::span<const Number>{columns[c]}; };
+  return {column(0), column(1), column(2), column(3)};
 }
 
 }  // namespace
@@ -87,12 +102,26 @@ struct ShapeStore::State {
   std::vector<ShapeOutline> outlines;
   Read read;
   std::vector<ShapeView> views;
+  std::deque<LevelSetBand> bands;  // views point at them
   std::vector<bool> resident;
   std::vector<SharedMemory> blocks;
   std::uint64_t resident_bytes{0};
 
   void load(const std::vector<std::size_t>& wanted);
+  void show(const ShapeParts& parts, ShapeView& view);
 };
+
+void ShapeStore::State::show(const ShapeParts& parts, ShapeView& view) {
+  if (parts.band.empty()) {
+    view.level_set.values = parts.values;
+    view.nodes = nodes_in(parts.nodes);
+  } else {
+    view.level_set.band =
+        &bands.emplace_back(view.level_set.dims, view.level_set.spacing, parts.band);
+    view.nodes = nodes_in(parts.band_nodes);
+  }
+  view.clusters = parts.clusters;
+}
 
 /// Collective on the machine.
 void ShapeStore::State::load(const std::vector<std::size_t>& wanted) {

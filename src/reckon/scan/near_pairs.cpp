@@ -30,7 +30,7 @@ void search(const Posed& nodes, const Posed& field, double sign, NearPair& best)
     const double far = field.shape.bounding_radius + cluster.radius + std::max(best.gap, 0.0);
     if (squared_norm(center - field.position) > far * far) continue;
     for (std::uint32_t n = cluster.first; n < cluster.first + cluster.count; ++n) {
-      const Vec3 world = nodes.to_world(nodes.shape.node(n));
+      const Vec3 world = nodes.to_world(nodes.shape.nodes.position(n));
       const auto sample = field.shape.level_set.sample(field.to_body(world));
       if (!sample.inside_grid || !(sample.phi < best.gap)) continue;
       best.gap = sample.phi;

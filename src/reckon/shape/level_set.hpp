@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reckon/math/vec3.hpp"
+#include "reckon/shape/level_set_band.hpp"
 
 namespace reckon {
 
@@ -48,13 +49,14 @@ struct CellPolynomial {
   }
 };
 
-/// A level set as the kernels read it. Does not own.
+/// A level set as the kernels read it: all its values, or a band of them. Does not own.
 struct LevelSetView {
   std::array<std::int32_t, 3> dims{0, 0, 0};
   double spacing{0};
   double inverse_spacing{0};
   Vec3 origin_body;
-  std::span<const float> values;
+  std::span<const float> values;      ///< empty where there is a band
+  const LevelSetBand* band{nullptr};  ///< or null
 
   LevelSetView() = default;
   LevelSetView(const LevelSet& grid)  // NOLINT(google-explicit-constructor): a view, like span
@@ -93,19 +95,23 @@ struct LevelSetView {
     return {i, j, k, gx - i, gy - j, gz - k, true};
   }
 
-  [[nodiscard]] CellPolynomial polynomial(std::int32_t i, std::int32_t j, std::int32_t k) const {
+  /// phi at the corners of a cell: bit 0 of the place is one step along x, bit 1 y, bit 2 z [m].
+  [[nodiscard]] std::array<double, 8> corners(std::int32_t i, std::int32_t j,
+                                              std::int32_t k) const {
+    if (band != nullptr) {
+      const auto [a, b, c, d, e, f, g, h] = band->corners(i, j, k);
+      return {a, b, c, d, e, f, g, h};
+    }
     const auto nx = static_cast<std::size_t>(dims[0]);
     const auto nxy = nx * static_cast<std::size_t>(dims[1]);
     const std::size_t base = static_cast<std::size_t>(i) + nx * static_cast<std::size_t>(j) +
                              nxy * static_cast<std::size_t>(k);
-    const double v000 = values[base];
-    const double v100 = values[base + 1];
-    const double v010 = values[base + nx];
-    const double v110 = values[base + nx + 1];
-    const double v001 = values[base + nxy];
-    const double v101 = values[base + nxy + 1];
-    const double v011 = values[base + nxy + nx];
-    const double v111 = values[base + nxy + nx + 1];
+    const float* const v = &values[base];
+    return {v[0], v[1], v[nx], v[nx + 1], v[nxy], v[nxy + 1], v[nxy + nx], v[nxy + nx + 1]};
+  }
+
+  [[nodiscard]] CellPolynomial polynomial(std::int32_t i, std::int32_t j, std::int32_t k) const {
+    const auto [v000, v100, v010, v110, v001, v101, v011, v111] = corners(i, j, k);
     return {{v000, v100 - v000, v010 - v000, v001 - v000, v110 - v100 - v010 + v000,
              v101 - v100 - v001 + v000, v011 - v010 - v001 + v000,
              v111 - v110 - v101 - v011 + v100 + v010 + v001 - v000}};
@@ -130,6 +136,6 @@ struct LevelSetView {
 /// wholly inside the grain. A point of the grid with phi = d >= 0 is therefore at least
 /// d / lipschitz_constant(grid) away from every point with phi < 0. (In a cell the gradient is
 /// linear along each axis, so its norm is largest at a vertex.)
-[[nodiscard]] double lipschitz_constant(const LevelSetView& grid);
+[[nodiscard]] double lipschitz_constant(const LevelSet& grid);
 
 }  // namespace reckon

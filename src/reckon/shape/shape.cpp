@@ -8,7 +8,7 @@
 
 namespace reckon {
 
-double lipschitz_constant(const LevelSetView& grid) {
+double lipschitz_constant(const LevelSet& grid) {
   double steepest_squared = 0;
   const auto nx = static_cast<std::size_t>(grid.dims[0]);
   const auto nxy = nx * static_cast<std::size_t>(grid.dims[1]);
@@ -56,7 +56,20 @@ std::vector<NodeCluster> make_clusters(const SurfaceNodes& nodes, std::uint32_t 
   return clusters;
 }
 
+void round_to_band(Shape& shape) {
+  decode_band(encode_band(shape.level_set), shape.level_set);
+  for (auto* const column : {&shape.nodes.x, &shape.nodes.y, &shape.nodes.z, &shape.nodes.area}) {
+    for (double& number : *column) number = static_cast<float>(number);
+  }
+  shape.clusters = make_clusters(shape.nodes);
+  shape.lipschitz = lipschitz_constant(shape.level_set);
+  // Farther than half a count and half a unit in the last place move the surface and the nodes.
+  shape.bounding_radius += 1e-4 * shape.level_set.spacing;
+  shape.storage = ShapeStorage::band;
+}
+
 ShapeOutline outline_of(const Shape& shape) {
+  const bool in_band = shape.storage == ShapeStorage::band && !shape.level_set.values.empty();
   return {shape.level_set.dims,
           shape.level_set.spacing,
           shape.level_set.origin_body,
@@ -64,12 +77,16 @@ ShapeOutline outline_of(const Shape& shape) {
           shape.mass,
           shape.bounding_radius,
           shape.lipschitz,
-          shape.sphere_radius};
+          shape.sphere_radius,
+          shape.storage,
+          in_band ? encode_band(shape.level_set).size() : 0};
 }
 
 std::uint64_t ShapeOutline::memory() const {
   const std::uint64_t clusters = (nodes + nodes_per_cluster - 1) / nodes_per_cluster;
-  return values() * sizeof(float) + nodes * 4 * sizeof(double) + clusters * sizeof(NodeCluster);
+  const bool in_band = storage == ShapeStorage::band;
+  return (in_band ? band_words * sizeof(LevelSetBand::Word) : values() * sizeof(float)) +
+         nodes * 4 * (in_band ? sizeof(float) : sizeof(double)) + clusters * sizeof(NodeCluster);
 }
 
 ShapeView::ShapeView(const ShapeOutline& outline)
@@ -81,10 +98,8 @@ ShapeView::ShapeView(const ShapeOutline& outline)
 
 ShapeView::ShapeView(const Shape& shape)
     : level_set{shape.level_set},
-      node_x{shape.nodes.x},
-      node_y{shape.nodes.y},
-      node_z{shape.nodes.z},
-      node_area{shape.nodes.area},
+      nodes{std::span{shape.nodes.x}, std::span{shape.nodes.y}, std::span{shape.nodes.z},
+            std::span{shape.nodes.area}},
       clusters{shape.clusters},
       mass{shape.mass},
       bounding_radius{shape.bounding_radius},

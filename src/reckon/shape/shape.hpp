@@ -57,6 +57,12 @@ struct ShapeDescriptors {
   double roundness{0};
 };
 
+/// What of a shape is kept in files and in the memory of a run.
+enum class ShapeStorage : std::uint8_t {
+  full,  ///< the whole grid in single precision, nodes in double precision
+  band,  ///< a LevelSetBand, nodes in single precision
+};
+
 /// One grain's immutable geometry in its body frame: origin at the centre of mass, axes along the
 /// principal axes of inertia. Made by `reckon/avatar`, stored in a shape library.
 struct Shape {
@@ -70,7 +76,12 @@ struct Shape {
   double lipschitz{1};        ///< see lipschitz_constant
   /// Of a shape that is a sphere, so that contacts between two need no nodes; 0: it is none [m].
   double sphere_radius{0};
+  ShapeStorage storage{ShapeStorage::full};
 };
+
+/// Makes the shape one that is stored as a band: grid and nodes become what the band and single
+/// precision hold, so that a run on the whole of them and one on the band give the same bits.
+void round_to_band(Shape& shape);
 
 inline constexpr std::uint32_t nodes_per_cluster = 16;
 
@@ -84,6 +95,8 @@ struct ShapeOutline {
   double bounding_radius{0};  ///< [m]
   double lipschitz{1};
   double sphere_radius{0};  ///< see Shape [m]
+  ShapeStorage storage{ShapeStorage::full};
+  std::uint64_t band_words{0};  ///< of the LevelSetBand, where there is one
 
   [[nodiscard]] std::uint64_t values() const {
     return static_cast<std::uint64_t>(dims[0]) * static_cast<std::uint64_t>(dims[1]) *
@@ -92,6 +105,7 @@ struct ShapeOutline {
   /// What grid, nodes and clusters take [bytes].
   [[nodiscard]] std::uint64_t memory() const;
 };
+/// (`band_words` stays 0 of a shape without values.)
 [[nodiscard]] ShapeOutline outline_of(const Shape& shape);
 
 /// Groups the nodes, in their order, into runs of at most `per_cluster`, each with a sphere that
@@ -99,20 +113,46 @@ struct ShapeOutline {
 [[nodiscard]] std::vector<NodeCluster> make_clusters(const SurfaceNodes& nodes,
                                                      std::uint32_t per_cluster = nodes_per_cluster);
 
+/// Numbers in double or in single precision. Does not own.
+class NumberColumn {
+ public:
+  NumberColumn() = default;
+  NumberColumn(std::span<const double> numbers)  // NOLINT(google-explicit-constructor): like span
+      : doubles_{numbers.data()}, size_{numbers.size()} {}
+  NumberColumn(std::span<const float> numbers)  // NOLINT(google-explicit-constructor): like span
+      : singles_{numbers.data()}, size_{numbers.size()} {}
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] double operator[](std::size_t n) const {
+    return singles_ != nullptr ? double{singles_[n]} : doubles_[n];
+  }
+
+ private:
+  const double* doubles_{nullptr};
+  const float* singles_{nullptr};
+  std::size_t size_{0};
+};
+
+/// SurfaceNodes as the kernels read them.
+struct SurfaceNodesView {
+  NumberColumn x;
+  NumberColumn y;
+  NumberColumn z;
+  NumberColumn area;
+
+  [[nodiscard]] std::size_t size() const { return x.size(); }
+  [[nodiscard]] Vec3 position(std::size_t n) const { return {x[n], y[n], z[n]}; }
+};
+
 /// A shape as the kernels read it. Does not own.
 struct ShapeView {
   LevelSetView level_set;
-  std::span<const double> node_x;
-  std::span<const double> node_y;
-  std::span<const double> node_z;
-  std::span<const double> node_area;
+  SurfaceNodesView nodes;
   std::span<const NodeCluster> clusters;
   MassProperties mass;
   double bounding_radius{0};
   double lipschitz{1};
   double sphere_radius{0};  ///< see Shape [m]
-
-  [[nodiscard]] Vec3 node(std::size_t n) const { return {node_x[n], node_y[n], node_z[n]}; }
 
   ShapeView() = default;
   ShapeView(const Shape& shape);  // NOLINT(google-explicit-constructor): a view, like span

@@ -93,6 +93,26 @@ TEST_F(LibraryFile, SomeShapesCanBeLoadedAlone) {
   test::expect_error([&] { (void)load_shapes(file_, missing); }, {"no shape 3"});
 }
 
+TEST_F(LibraryFile, BandsComeBackAsTheyWereRounded) {
+  ShapeLibrary bands = example();
+  for (Shape& shape : bands) round_to_band(shape);
+  save_library(folder_ / "full.h5", example());
+  save_library(file_, bands);
+  const ShapeLibrary loaded = load_library(file_);
+  ASSERT_EQ(loaded.size(), bands.size());
+  const LibrarySource source{file_};
+  for (std::size_t s = 0; s < loaded.size(); ++s) {
+    expect_equal(loaded[s], bands[s]);
+    EXPECT_EQ(loaded[s].storage, ShapeStorage::band);
+    EXPECT_EQ(source.summary(s).outline.memory(), outline_of(bands[s]).memory());
+    EXPECT_EQ(source.summary(s).digest, shape_digest(bands[s]));
+  }
+  EXPECT_LT(2 * std::filesystem::file_size(file_),
+            std::filesystem::file_size(folder_ / "full.h5") + 2 * 20000);
+  bands[1] = example()[1];
+  test::expect_error([&] { save_library(file_, bands); }, {"stored in another way"});
+}
+
 TEST_F(LibraryFile, EqualLibrariesGiveEqualFiles) {
   save_library(file_, example());
   const std::string first = read_file(file_);
@@ -182,9 +202,10 @@ TEST_F(LibraryFile, SealedNonsenseIsRefused) {
     std::size_t z_nodes{2};
     double spacing{0.1};
     std::vector<std::string> names{"a"};
+    std::vector<LevelSetBand::Word> band{};
   };
   const auto load = [&](const Fault& fault) {
-    Hdf5Writer file{file_, {"shape library", 1}};
+    Hdf5Writer file{file_, {"shape library", fault.band.empty() ? 1U : 3U}};
     file.write_texts("/shape/name", fault.names);
     file.write("/shape/dims", fault.dims, {fault.dims.size() / 3, 3}, "1");
     file.write<std::uint64_t>("/shape/digest", {0}, {1}, "1");
@@ -200,6 +221,16 @@ TEST_F(LibraryFile, SealedNonsenseIsRefused) {
     file.write<double>("/shape/inertia", {1, 1, 1}, {1, 3}, "m^5");
     file.write("/shape/first_value", fault.first_value, {fault.first_value.size()}, "1");
     file.write("/shape/first_node", fault.first_node, {fault.first_node.size()}, "1");
+    if (!fault.band.empty()) {
+      file.write("/grid/band", fault.band, {fault.band.size()}, "1");
+      file.write<double>("/shape/sphere_radius", {0}, {1}, "m");
+      for (const char* name : {"/node/x", "/node/y", "/node/z", "/node/area"}) {
+        file.write(name, std::vector<float>(fault.nodes, 1.0F), {fault.nodes}, "m");
+      }
+      file.finish();
+      (void)load_library(file_);
+      return;
+    }
     file.write("/grid/values", std::vector<float>(fault.values, 1.0F), {fault.values}, "m");
     for (const char* name : {"/node/x", "/node/y", "/node/area"}) {
       file.write(name, std::vector<double>(fault.nodes, 1.0), {fault.nodes}, "m");
@@ -222,6 +253,20 @@ TEST_F(LibraryFile, SealedNonsenseIsRefused) {
   test::expect_error([&] { load({.z_nodes = 3}); }, {"/node/z"});
   test::expect_error([&] { load({.spacing = -1}); }, {"spacing"});
   EXPECT_THROW(load({.names = {"a", "b"}}), Error);
+
+  LevelSet grid{{3, 3, 3}, 0.1, {}, std::vector<float>(27, 0.05F)};
+  const auto words = encode_band(grid);
+  const std::uint64_t count = words.size();
+  test::expect_error([&] { load({.first_value = {0, count}, .band = words}); }, {"digest"});
+  auto wrong = words;
+  wrong[0] = 7;
+  test::expect_error([&] { load({.first_value = {0, count}, .band = wrong}); }, {"not a band"});
+  for (const std::vector<std::int32_t>& dims : {std::vector<std::int32_t>{3, 3, 4},
+                                                {3, 1 << 14, 1 << 14},
+                                                {1 << 30, 1 << 30, 1 << 30},
+                                                {-3, 3, 3}}) {
+    EXPECT_THROW(load({.dims = dims, .first_value = {0, count}, .band = words}), Error);
+  }
 }
 
 }  // namespace

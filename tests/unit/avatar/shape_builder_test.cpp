@@ -114,7 +114,7 @@ TEST_P(EveryShape, KeepsItsPromises) {
   EXPECT_GT(*std::min_element(shape.nodes.area.begin(), shape.nodes.area.end()), 0);
   EXPECT_GE(shape.bounding_radius, farthest);
   EXPECT_LE(shape.bounding_radius, 1.05 * farthest);
-  EXPECT_EQ(shape.lipschitz, lipschitz_constant(grid));
+  EXPECT_EQ(shape.lipschitz, lipschitz_constant(shape.level_set));
   EXPECT_GE(shape.lipschitz, 0.99);
   EXPECT_LE(shape.lipschitz, std::sqrt(3) * (1 + 1e-6));
   // No point with phi < 0 beyond the bounding radius.

@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+
 #include "reckon/contact/clearance.hpp"
 #include "reckon/contact/motion_meter.hpp"
 #include "reckon/contact/pair_kernel.hpp"
 #include "reckon/core/random.hpp"
+#include "support/band_shape.hpp"
 #include "support/random_motion.hpp"
 #include "support/test_shapes.hpp"
 
@@ -35,10 +38,16 @@ void expect_same_touches(const std::vector<Touch>& a, const std::vector<Touch>& 
 
 /// Two grains wander about each other in strides from a hundred-thousandth of their size to half
 /// of it, sometimes together. The list must find what the plain finder finds, and must never let
-/// the pair sleep through a touch.
+/// the pair sleep through a touch. In every other walk the shapes of the list are bands.
 TEST(NearList, MissesNoTouchWhateverTheMotion) {
-  const std::vector<Shape> shapes = zoo();
-  const std::vector<ShapeView> views{shapes.begin(), shapes.end()};
+  std::deque<testing::BandShape> shapes;
+  std::vector<ShapeView> whole;
+  std::vector<ShapeView> bands;
+  for (Shape& shape : zoo()) {
+    shapes.emplace_back(std::move(shape));
+    whole.emplace_back(shapes.back().whole());
+    bands.push_back(shapes.back().view());
+  }
   std::uint64_t touched = 0;
   std::uint64_t slept = 0;
   ContactCounters counters;
@@ -47,8 +56,10 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
     const PointFilter filter = point_filter(levels[walk % levels.size()]);
     RandomStream random{walk, RandomPurpose::other, 7};
     const auto pick = [&] { return static_cast<std::size_t>(random.uniform(0, 6)); };
-    const ShapeView& shape_a = views[pick()];
-    const ShapeView& shape_b = views[pick()];
+    const std::size_t form_a = pick();
+    const std::size_t form_b = pick();
+    const ShapeView& shape_a = whole[form_a];
+    const ShapeView& shape_b = whole[form_b];
     const double size = std::min(shape_a.bounding_radius, shape_b.bounding_radius);
     const double contact = shape_a.bounding_radius + shape_b.bounding_radius;
     std::vector<GrainFrame> frames{{GrainId{0}, &shape_a}, {GrainId{1}, &shape_b}};
@@ -81,7 +92,12 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
         continue;
       }
       std::vector<Touch> found;
-      wake = list.find_touches(frames[0], frames[1], odometer, filter, found, counters);
+      std::vector<GrainFrame> seen = frames;
+      if (walk % 2 == 1) {
+        seen[0].shape = &bands[form_a];
+        seen[1].shape = &bands[form_b];
+      }
+      wake = list.find_touches(seen[0], seen[1], odometer, filter, found, counters);
       expect_same_touches(found, expected);
       if (HasFatalFailure()) FAIL() << "walk " << walk << " step " << step;
       touched += expected.empty() ? 0U : 1U;
@@ -160,9 +176,9 @@ TEST(MotionMeter, NoPointOutrunsTheMeter) {
     for (int step = 0; step < 100; ++step) {
       motion.move(std::exp2(random.uniform(-30, 0)), {});
       meter.follow(frames);
-      for (std::size_t n = 0; n < view.node_x.size(); ++n) {
-        const Vec3 before = start.position + start.rotation * view.node(n);
-        const Vec3 now = frames[0].position + frames[0].rotation * view.node(n);
+      for (std::size_t n = 0; n < view.nodes.size(); ++n) {
+        const Vec3 before = start.position + start.rotation * view.nodes.position(n);
+        const Vec3 now = frames[0].position + frames[0].rotation * view.nodes.position(n);
         ASSERT_LE(norm(now - before), meter.travelled()[0]);
       }
     }
