@@ -121,27 +121,39 @@ void number_by_place(std::vector<GrainState>& grains, double cell) {
 
 }  // namespace
 
-ShapeLibrary make_shapes(const std::vector<GrainKind>& kinds, std::uint32_t distinct) {
-  ShapeLibrary shapes;
+ShapeStore make_shapes(const std::vector<GrainKind>& kinds, std::uint32_t distinct,
+                       ShapeStorage storage, std::uint32_t copies) {
+  const auto forms = std::make_shared<ShapeLibrary>();
+  std::vector<std::size_t> form_of;  // by shape
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const GrainKind& kind = kinds[k];
     GrainStatistics statistics;
     statistics.median_diameter = kind.diameter;
     statistics.log_deviation = 0.1;
-    const std::size_t first = shapes.size();
+    ShapeResolution resolution;
+    resolution.voxels_per_diameter = kind.voxels_per_diameter;
+    resolution.node_count = kind.nodes;
+    resolution.storage = storage;
+    const std::size_t first = forms->size();
     for (std::uint32_t n = 0; n < kind.count; ++n) {
-      if (distinct > 0 && n >= distinct) {
-        shapes.push_back(shapes[first + n % distinct]);
-        continue;
+      if (n < distinct) {
+        forms->push_back(
+            build_shape(generate_grain(statistics, seed, k * 1000 + n), resolution, "grain"));
       }
-      ShapeResolution resolution;
-      resolution.voxels_per_diameter = kind.voxels_per_diameter;
-      resolution.node_count = kind.nodes;
-      shapes.push_back(
-          build_shape(generate_grain(statistics, seed, k * 1000 + n), resolution, "grain"));
+      form_of.push_back(first + n % distinct);
     }
   }
-  return shapes;
+  const std::size_t once = form_of.size();
+  while (form_of.size() < copies * once) form_of.push_back(form_of[form_of.size() - once]);
+  if (storage == ShapeStorage::full) {
+    auto shapes = std::make_shared<ShapeLibrary>();
+    for (const std::size_t form : form_of) shapes->push_back((*forms)[form]);
+    return ShapeStore{std::move(shapes)};
+  }
+  std::vector<ShapeOutline> outlines;
+  for (const std::size_t form : form_of) outlines.push_back(outline_of((*forms)[form]));
+  return ShapeStore{Communicator{}, std::move(outlines),
+                    [forms, form_of](ShapeId s) { return (*forms)[form_of[s.get()]]; }};
 }
 
 double wall_pressure(const Measurement& now, const Vec3& size) {
@@ -189,8 +201,8 @@ void write_packing(const std::string& path, const Packing& packing) {
 
 }  // namespace
 
-Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& material,
-                double pressure, double time_step, double skin, const std::string& file) {
+Packing squeeze(ShapeStore shapes, const Material& material, double pressure, double time_step,
+                double skin, const std::string& file) {
   Packing packing;
   packing.setup.shapes = std::move(shapes);
   packing.setup.density = material.density;

@@ -20,8 +20,10 @@ struct GrainKind {
 };
 
 /// One shape per grain, each with memory of its own, as in a run on scanned grains. Only `distinct`
-/// forms are generated per kind and then copied: the machine cannot tell.
-[[nodiscard]] ShapeLibrary make_shapes(const std::vector<GrainKind>& kinds, std::uint32_t distinct);
+/// forms are generated per kind and then copied: the machine cannot tell. All of it `copies` times,
+/// one after the other.
+[[nodiscard]] ShapeStore make_shapes(const std::vector<GrainKind>& kinds, std::uint32_t distinct,
+                                     ShapeStorage storage, std::uint32_t copies = 1);
 
 /// What holds for a workload from its packing to its measurement.
 struct Material {
@@ -43,9 +45,8 @@ struct Packing {
 /// Packs one grain per shape: placed apart, larger ones first, in a loose cube, which then shrinks,
 /// without friction and with much damping, until the walls bear `pressure`. When
 /// `file` is given, the result is kept there and read from there the next time.
-[[nodiscard]] Packing squeeze(std::shared_ptr<const ShapeLibrary> shapes, const Material& material,
-                              double pressure, double time_step, double skin,
-                              const std::string& file);
+[[nodiscard]] Packing squeeze(ShapeStore shapes, const Material& material, double pressure,
+                              double time_step, double skin, const std::string& file);
 
 /// Puts `copies` of the packing along each axis side by side, in a box as many times as large,
 /// until there are `count` grains. The copies share their shapes.

@@ -19,16 +19,12 @@ namespace {
 constexpr double diameter = 2;  // [m]
 constexpr double skin = 0.1;    // [m]
 
-std::shared_ptr<const ShapeLibrary> library(const std::vector<GrainKind>& kinds,
-                                            std::uint32_t distinct) {
-  return std::make_shared<const ShapeLibrary>(make_shapes(kinds, distinct));
-}
-
 /// Where a packing of this request is kept; empty: nowhere.
 std::string packing_file(const WorkloadRequest& request, std::string_view name,
                          std::size_t grains) {
   if (request.cache.empty()) return {};
-  return (request.cache / fmt::format("{}-{}.packing", name, grains)).string();
+  const char* const kind = request.storage == ShapeStorage::band ? "-band" : "";
+  return (request.cache / fmt::format("{}-{}{}.packing", name, grains, kind)).string();
 }
 
 double solid_fraction(const Packing& packing) {
@@ -70,15 +66,17 @@ constexpr double stiff_time_step = 3e-4;  // [s]
 constexpr double stiff_pressure = 1e5;    // [Pa]
 
 Workload dense(std::uint32_t grains, const WorkloadRequest& request) {
-  return sheared(squeeze(library({{diameter, grains, 279, 18}}, 12), stiff_sand, stiff_pressure,
-                         stiff_time_step, skin, packing_file(request, "dense", grains)),
-                 1e-3, 12);
+  return sheared(
+      squeeze(make_shapes({{diameter, grains, 279, 18}}, 12, request.storage), stiff_sand,
+              stiff_pressure, stiff_time_step, skin, packing_file(request, "dense", grains)),
+      1e-3, 12);
 }
 
 Workload dense_fine(std::uint32_t grains, const WorkloadRequest& request) {
-  return sheared(squeeze(library({{diameter, grains, 5000, 50}}, 8), stiff_sand, stiff_pressure,
-                         stiff_time_step, skin, packing_file(request, "dense-fine", grains)),
-                 1e-3, 8);
+  return sheared(
+      squeeze(make_shapes({{diameter, grains, 5000, 50}}, 8, request.storage), stiff_sand,
+              stiff_pressure, stiff_time_step, skin, packing_file(request, "dense-fine", grains)),
+      1e-3, 8);
 }
 
 Workload graded(std::uint32_t grains, const WorkloadRequest& request) {
@@ -86,24 +84,34 @@ Workload graded(std::uint32_t grains, const WorkloadRequest& request) {
   material.master = MasterRule::smaller;
   const std::uint32_t large = std::max(grains / 1000, 2U);
   const std::uint32_t middle = std::max(grains / 50, 2U);
-  return sheared(squeeze(library({{10 * diameter, large, 1500, 50},
-                                  {4 * diameter, middle, 600, 30},
-                                  {diameter, grains - large - middle, 279, 18}},
-                                 8),
+  return sheared(squeeze(make_shapes({{10 * diameter, large, 1500, 50},
+                                      {4 * diameter, middle, 600, 30},
+                                      {diameter, grains - large - middle, 279, 18}},
+                                     8, request.storage),
                          material, stiff_pressure, stiff_time_step, skin,
                          packing_file(request, "graded", grains)),
                  1e-3, 24);
 }
 
 /// Walls at fixed velocity, lateral ones outward at a third of the axial ones: a drained triaxial
-/// test's kinematics without its pressure control.
+/// test's kinematics without its pressure control. The copies of its block share their shapes; as
+/// bands every grain has memory of its own.
 Workload triaxial(std::uint32_t grains, const WorkloadRequest& request) {
   constexpr int copies = 3;
+  constexpr std::uint32_t distinct = 8;
   const std::uint32_t block = (grains + copies * copies * copies - 1) / (copies * copies * copies);
-  Packing packing = squeeze(library({{diameter, block, 4772, 50}}, 8), stiff_sand, stiff_pressure,
-                            stiff_time_step, skin, packing_file(request, "triaxial-block", block));
+  const std::vector<GrainKind> kinds{{diameter, block, 4772, 50}};
+  Packing packing =
+      squeeze(make_shapes(kinds, distinct, request.storage), stiff_sand, stiff_pressure,
+              stiff_time_step, skin, packing_file(request, "triaxial-block", block));
   const double pressure = packing.pressure;
   repeat(packing, copies, grains);
+  if (request.storage == ShapeStorage::band) {  // whole grids would take 20 GB
+    packing.setup.shapes = make_shapes(kinds, distinct, request.storage, copies * copies * copies);
+    for (GrainState& grain : packing.state.grains) {
+      grain.shape = ShapeId{grain.id.get() / block * block + grain.shape.get()};
+    }
+  }
   packing.pressure = pressure;
   Workload work = sheared(std::move(packing), 1e-3, 8);
   auto& walls = work.setup.walls;
@@ -121,10 +129,11 @@ Workload triaxial(std::uint32_t grains, const WorkloadRequest& request) {
 }
 
 /// Grains of their own shapes, thrown down.
-Workload falling(std::uint32_t grains, const BoxConfig& region, const Vec3& velocity) {
+Workload falling(std::uint32_t grains, const BoxConfig& region, const Vec3& velocity,
+                 const WorkloadRequest& request) {
   Workload work;
   const AreaLaw law{2e7, 1.8e7, area_dashpot_factor(0.5)};
-  work.setup.shapes = library({{diameter, grains, 279, 18}}, 12);
+  work.setup.shapes = make_shapes({{diameter, grains, 279, 18}}, 12, request.storage);
   work.distinct_shapes = 12;
   work.setup.density = 1000;
   work.setup.contact = {law, 0.5, MasterRule::lower_id};
@@ -150,7 +159,7 @@ Workload falling(std::uint32_t grains, const BoxConfig& region, const Vec3& velo
 Workload settle(std::uint32_t grains, const WorkloadRequest& request) {
   const double edge = 0.96 * diameter * std::cbrt(static_cast<double>(grains));
   const BoxConfig box{{0, 0, 0}, {edge, edge, 100 * edge}};
-  Workload work = falling(grains, box, {0, 0, -2});
+  Workload work = falling(grains, box, {0, 0, -2}, request);
   const AnyContactLaw& law = work.setup.contact.law;
   work.setup.walls.push_back({"x-", PlaneSurface{box.low, {1, 0, 0}}, law, 0.3, false, {}});
   work.setup.walls.push_back({"x+", PlaneSurface{box.high, {-1, 0, 0}}, law, 0.3, false, {}});
@@ -163,7 +172,8 @@ Workload settle(std::uint32_t grains, const WorkloadRequest& request) {
 Workload heap(std::uint32_t grains, const WorkloadRequest& request) {
   // A narrow column; no narrower than one grain needs.
   const double edge = diameter * std::max(0.6 * std::cbrt(static_cast<double>(grains)), 3.0);
-  Workload work = falling(grains, BoxConfig{{0, 0, 0}, {edge, edge, 100 * edge}}, {0, 0, -2});
+  Workload work =
+      falling(grains, BoxConfig{{0, 0, 0}, {edge, edge, 100 * edge}}, {0, 0, -2}, request);
   if (request.small) work.stretches = 2;
   return work;
 }
@@ -178,8 +188,8 @@ Workload random_forcing(std::uint32_t grains, std::uint32_t block, int copies, d
   const Material material{.law = LinearLaw{30000, 27000, linear_dashpot_factor(0.6), 16},
                           .friction = 0.65,
                           .density = 2.65e-3};
-  Packing packing = squeeze(library({{voxels, block, 279, voxels}}, distinct), material, 20,
-                            time_step, 1, packing_file(request, name, block));
+  Packing packing = squeeze(make_shapes({{voxels, block, 279, voxels}}, distinct, request.storage),
+                            material, 20, time_step, 1, packing_file(request, name, block));
   repeat(packing, copies, grains);
   packing.setup.damping = 1.5;
   packing.setup.body_force.random_acceleration = 1000;

@@ -15,6 +15,7 @@ struct WorkloadRequest {
   bool small{false};            ///< a few grains and steps, for tests
   std::uint32_t grains{0};      ///< 0: the workload's own
   std::filesystem::path cache;  ///< folder that keeps packings; empty: nothing is kept
+  ShapeStorage storage{ShapeStorage::full};
 };
 
 /// How it is to be measured.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "exit_codes.hpp"
+#include "grains_parts.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "report.hpp"
@@ -25,6 +26,7 @@ struct Options {
   std::string simd{"auto"};
   std::uint32_t grains{0};
   int threads{1};
+  ShapeStorage storage{ShapeStorage::full};
   std::string cache;
   std::string save;
   bool no_plain{false};
@@ -52,7 +54,8 @@ bool run(const std::string& name, const Options& options) {
     if (options.quiet) return;
     fmt::print(stderr, "{}: {}\n", name, text);
   };
-  const bench::WorkloadRequest request{options.size == "small", options.grains, options.cache};
+  const bench::WorkloadRequest request{options.size == "small", options.grains, options.cache,
+                                       options.storage};
   const bench::MeasureOptions measuring{options.threads, simd_level(options.simd),
                                         !options.no_plain};
   say("making shapes and grains");
@@ -65,9 +68,10 @@ bool run(const std::string& name, const Options& options) {
   if (!options.save.empty()) {
     const std::filesystem::path folder{options.save};
     std::filesystem::create_directories(folder);
+    const std::string storage = options.storage == ShapeStorage::band ? "-band" : "";
     const std::string threads =
         options.threads > 1 ? fmt::format("-{}-threads", options.threads) : "";
-    write_file(folder / fmt::format("{}.{}{}.json", name, report.machine, threads),
+    write_file(folder / fmt::format("{}{}.{}{}.json", name, storage, report.machine, threads),
                as_json(report));
   }
   return report.result.same_bits;
@@ -104,6 +108,7 @@ void add_bench_command(CLI::App& app) {
   for (const SimdLevel level : simd_levels_here()) levels.emplace_back(name_of(level));
   command->add_option("--simd", options->simd, "Instructions that look for near nodes")
       ->check(CLI::IsMember(levels));
+  add_storage_option(*command, options->storage);
   command->add_option("--cache", options->cache, "Keep packings in this folder, and reuse them");
   command->add_option("--save", options->save, "Also write WORKLOAD.MACHINE.json into this folder");
   command->add_flag("--no-plain", options->no_plain, "Leave out the plain algorithm");

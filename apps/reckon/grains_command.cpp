@@ -91,13 +91,25 @@ void add_storage_option(CLI::App& command, ShapeStorage& storage) {
       ->option_text("full|band [full]");
 }
 
-std::vector<const Shape*> choose_shapes(const ShapeLibrary& library,
-                                        std::span<const std::string> names) {
-  std::vector<const Shape*> chosen;
+std::vector<std::size_t> choose_shapes(const LibrarySource& library,
+                                       std::span<const std::string> names) {
+  std::map<std::string, std::size_t> places;
+  for (std::size_t s = 0; s < library.size(); ++s) places.emplace(library.entry(s).name, s);
+  std::vector<std::size_t> chosen;
   if (names.empty()) {
-    for (const Shape& shape : library) chosen.push_back(&shape);
+    for (std::size_t s = 0; s < library.size(); ++s) chosen.push_back(s);
   }
-  for (const std::string& name : names) chosen.push_back(&find_shape(library, name));
+  for (const std::string& name : names) {
+    const auto found = places.find(name);
+    if (found == places.end()) {
+      throw Error{{.place = {},
+                   .problem = fmt::format("there is no shape named {}", name),
+                   .reason = fmt::format("the library holds {} shapes, the first is {}",
+                                         library.size(), library.entry(0).name),
+                   .fix = "reckon grains info lists the names."}};
+    }
+    chosen.push_back(found->second);
+  }
   return chosen;
 }
 

@@ -48,19 +48,20 @@ void add_grains_export(CLI::App& grains) {
       ->required();
   command->add_option("--shape", options->names, "Only grains of these names");
   command->callback([=] {
-    const ShapeLibrary library = load_library(options->library);
+    const LibrarySource library{options->library};
     const auto shapes = choose_shapes(library, options->names);
     const std::filesystem::path folder{options->folder};
     std::filesystem::create_directories(folder);
     CountDisplay display{shapes.size(), "grains"};
     std::size_t done = 0;
-    for (const Shape* shape : shapes) {
-      const std::string name = file_name(shape->name);
+    for (const std::size_t s : shapes) {
+      const Shape shape = library.read(s);
+      const std::string name = file_name(shape.name);
       if (options->format == "stl") {
-        write_stl(folder / (name + ".stl"), extract_surface(shape->level_set), shape->name);
+        write_stl(folder / (name + ".stl"), extract_surface(shape.level_set), shape.name);
       } else {
-        write_surface_vtp(folder / (name + ".vtp"), *shape);
-        write_nodes_vtp(folder / (name + "_nodes.vtp"), *shape);
+        write_surface_vtp(folder / (name + ".vtp"), shape);
+        write_nodes_vtp(folder / (name + "_nodes.vtp"), shape);
       }
       display.show(++done);
     }

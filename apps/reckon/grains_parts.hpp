@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/avatar/library_file.hpp"
 #include "reckon/shape/shape.hpp"
 
 namespace CLI {
@@ -40,9 +41,10 @@ void add_grains_statistics(CLI::App& grains);
 /// --storage: whole grids or bands.
 void add_storage_option(CLI::App& command, ShapeStorage& storage);
 
-/// The shapes of these names, all when there are none. Throws Error for a name that is not there.
-[[nodiscard]] std::vector<const Shape*> choose_shapes(const ShapeLibrary& library,
-                                                      std::span<const std::string> names);
+/// The numbers of the shapes of these names, all when there are none. Throws Error for a name that
+/// is not there.
+[[nodiscard]] std::vector<std::size_t> choose_shapes(const LibrarySource& library,
+                                                     std::span<const std::string> names);
 
 /// Shows how many of `total` are done, how fast, and the time left, on one line of a terminal;
 /// nothing elsewhere.

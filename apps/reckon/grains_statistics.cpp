@@ -54,7 +54,7 @@ void add_grains_statistics(CLI::App& grains) {
       ->required();
   command->add_option("-o,--output", options->output, "Write a line per grain to this .csv");
   command->callback([=] {
-    const ShapeLibrary library = load_library(options->library);
+    const ShapeLibrary library = load_entries(options->library);
     if (!options->output.empty()) write_file(options->output, as_csv(library));
     print_spreads(library);
   });

@@ -447,12 +447,23 @@ std::size_t LibrarySource::size() const {
   return impl_->file ? impl_->file->size() : impl_->folder.size();
 }
 
+const Shape& LibrarySource::entry(std::size_t shape) const {
+  return impl_->file ? impl_->file->table()[shape] : impl_->folder[shape];
+}
+
 ShapeSummary LibrarySource::summary(std::size_t shape) const {
   return impl_->file ? impl_->file->summary(shape) : summary_of(impl_->folder[shape]);
 }
 
 Shape LibrarySource::read(std::size_t shape) const {
   return impl_->file ? impl_->file->shape(shape) : impl_->folder[shape];
+}
+
+ShapeLibrary load_entries(const std::filesystem::path& path) {
+  const LibrarySource source{path};
+  ShapeLibrary entries;
+  for (std::size_t s = 0; s < source.size(); ++s) entries.push_back(table_row(source.entry(s)));
+  return entries;
 }
 
 ShapeLibrary load_shapes(const std::filesystem::path& path, std::span<const ShapeId> wanted) {

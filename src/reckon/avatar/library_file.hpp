@@ -85,6 +85,8 @@ class LibrarySource {
   LibrarySource& operator=(LibrarySource&&) noexcept;
 
   [[nodiscard]] std::size_t size() const;
+  /// A shape without its grid and nodes.
+  [[nodiscard]] const Shape& entry(std::size_t shape) const;
   [[nodiscard]] ShapeSummary summary(std::size_t shape) const;
   /// Verifies digest and check_shape.
   [[nodiscard]] Shape read(std::size_t shape) const;
@@ -97,6 +99,9 @@ class LibrarySource {
 /// Some shapes of a library file, in the order asked for.
 [[nodiscard]] ShapeLibrary load_shapes(const std::filesystem::path& path,
                                        std::span<const ShapeId> wanted);
+
+/// All shapes without their grids and nodes.
+[[nodiscard]] ShapeLibrary load_entries(const std::filesystem::path& path);
 
 /// The shape of that name. Throws Error when there is none.
 [[nodiscard]] const Shape& find_shape(const ShapeLibrary& library, std::string_view name);

@@ -43,8 +43,8 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
   std::deque<testing::BandShape> shapes;
   std::vector<ShapeView> whole;
   std::vector<ShapeView> bands;
-  for (Shape& shape : zoo()) {
-    shapes.emplace_back(std::move(shape));
+  for (const Shape& shape : zoo()) {
+    shapes.emplace_back(shape);
     whole.emplace_back(shapes.back().whole());
     bands.push_back(shapes.back().view());
   }

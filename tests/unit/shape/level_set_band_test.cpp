@@ -115,6 +115,24 @@ TEST(LevelSetBand, RoundedShapesKeepTheirBounds) {
   }
 }
 
+TEST(KeptShape, GivesBackWhatItWasGiven) {
+  for (const Shape& shape : forms()) {
+    const testing::BandShape band{shape};
+    for (const Shape& given : {shape, band.whole()}) {
+      const KeptShape kept{given};
+      const Shape whole = kept.whole();
+      EXPECT_EQ(whole.level_set.values, given.level_set.values);
+      EXPECT_EQ(whole.nodes.x, given.nodes.x);
+      EXPECT_EQ(whole.nodes.area, given.nodes.area);
+      EXPECT_EQ(whole.clusters.size(), given.clusters.size());
+      EXPECT_EQ(kept.view().nodes.position(3), given.nodes.position(3));
+      EXPECT_EQ(kept.view().clusters.size(), given.clusters.size());
+    }
+    EXPECT_TRUE(band.kept().entry().level_set.values.empty());
+    EXPECT_EQ(band.kept().entry().nodes.size(), 0U);
+  }
+}
+
 /// Words from outside that lead beyond themselves are told from those that do not.
 TEST(LevelSetBand, FaultyWordsAreFound) {
   const LevelSet grid = testing::bumpy_grain(1.0, 50, 12).level_set;
