@@ -124,7 +124,7 @@ std::vector<RankLoad> count_loads(const Assembly& assembly, const Sharing& shari
   std::vector<VirtualRank> virtual_ranks(static_cast<std::size_t>(ranks));
   for (std::uint32_t n = 0; n < assembly.positions.size(); ++n) {
     BorderGrain grain{GrainId{n}, ShapeId{}, {}};
-    grain.state.position = assembly.positions[n];
+    grain.state.position = grain.place = assembly.positions[n];
     const auto owner = static_cast<std::size_t>(sharing.owner_of(grain.state.position));
     virtual_ranks[owner].known.push_back(grain);
   }

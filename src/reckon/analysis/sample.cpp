@@ -52,8 +52,7 @@ double add_pairs(const Simulation& simulation, Sums& sums, std::vector<std::int6
     if (pair.slot_a < owned) ++degree[pair.slot_a];
     if (pair.slot_b < owned) ++degree[pair.slot_b];
     if (pair.slot_a >= owned) continue;
-    const Vec3 branch =
-        simulation.frames()[pair.slot_a].position - simulation.frames()[pair.slot_b].position;
+    const Vec3 branch = simulation.branch(pair);
     const double size = norm(force.force_on_a);
     ++sums.contacts;
     sums.pairs.add(outer(force.force_on_a, branch));
@@ -126,6 +125,12 @@ double largest_rate(const Simulation& simulation, const Enclosure& now) {
     const MembraneState& state = membrane->state();
     const Vec3 apart = poses[state.lid.get()].velocity - poses[state.floor.get()].velocity;
     return std::abs(dot(apart, state.start.axis_unit)) * now.areas[state.lid.get()] / now.volume;
+  }
+  if (const PeriodicCell* cell = simulation.cell()) {
+    const UpperMat3 rate = cell->gradient();
+    return std::max({std::abs(rate.diagonal.x), std::abs(rate.diagonal.y),
+                     std::abs(rate.diagonal.z), std::abs(rate.xy), std::abs(rate.xz),
+                     std::abs(rate.yz)});
   }
   std::vector<WallPose> before(simulation.wall_contacts().poses().begin(),
                                simulation.wall_contacts().poses().end());

@@ -59,7 +59,8 @@ void WallContacts::rebuild(std::span<const GrainFrame> frames, const MotionBudge
   for (std::uint32_t slot = 0; slot < frames.size(); ++slot) {
     for (std::uint32_t w = 0; w < walls_.size(); ++w) {
       if (removed_[w]) continue;
-      const double reach = frames[slot].shape->bounding_radius + budget.of(frames[slot].velocity) +
+      const double reach = frames[slot].shape->bounding_radius +
+                           budget.of(frames[slot].velocity, frames[slot].position) +
                            budget.of(poses_[w].velocity);
       if (!(distance(walls_[w], poses_[w], frames[slot].position) < reach)) continue;
       candidates_.push_back({slot, WallId{w}, frames[slot].id});

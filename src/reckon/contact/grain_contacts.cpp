@@ -23,6 +23,8 @@ void add_directed(PairForce& pair, const DirectedForce& directed, bool master_is
   pair.elastic += directed.elastic;
   pair.friction += directed.friction;
   pair.dashpot += directed.dashpot;
+  pair.stiffness += directed.stiffness;
+  pair.damping += directed.damping;
   pair.touching += directed.touching;
 }
 
@@ -81,6 +83,7 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
   std::vector<SpringRange> springs(pairs.size());
   std::vector<double> wake(pairs.size(), wake_always);
   std::vector<NearPair> near(pairs.size());
+  std::vector<Vec3> images(cell_ ? pairs.size() : 0);
   auto old = by_ids_.begin();
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const std::uint32_t place = by_ids[p];
@@ -94,6 +97,7 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
       springs[place] = springs_of_pair_[*old];
       wake[place] = wake_[*old];
       near[place] = std::move(near_[*old]);
+      if (*old < images_.size() && cell_) images[place] = images_[*old];
     }
   }
   pairs_ = std::move(listed);
@@ -101,11 +105,39 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
   springs_of_pair_ = std::move(springs);
   wake_ = std::move(wake);
   near_ = std::move(near);
+  images_ = std::move(images);
   // A sleeping pair writes neither.
   new_springs_of_pair_.assign(pairs_.size(), {});
   forces_.assign(pairs_.size(), {});
   acts_.assign(pairs_.size(), 0);
   pairs_of_grain_ = index_pairs(pairs_, by_ids_, slot_count);
+}
+
+void GrainContacts::set_cell(const PeriodicCell& cell, const CellMotion& motion) {
+  cell_ = cell;
+  cell_motion_ = motion;
+  images_.resize(pairs_.size());
+  // Half a width. Beyond `farthest` the meter does not count what the cell's own motion does, so no
+  // more than that is taken for granted.
+  image_distance_ = std::min(0.5 * cell.least_width(), motion.farthest);
+}
+
+/// b as a meets it: without a cell b itself, else its image nearest to a. Near lists that were
+/// about another image are forgotten.
+const GrainFrame& GrainContacts::image_of_b(std::size_t p, std::span<const GrainFrame> frames,
+                                            std::optional<GrainFrame>& image) {
+  const GrainFrame& b = frames[pairs_[p].slot_b];
+  if (!cell_) return b;
+  const Vec3 edges = cell_->nearest_image(frames[pairs_[p].slot_a].position - b.position);
+  if (edges != images_[p]) {
+    images_[p] = edges;
+    near_[p] = {};
+  }
+  if (edges == Vec3{}) return b;
+  image = b;
+  image->position += cell_->shift_of(edges);
+  image->velocity += cell_->velocity_of(edges);
+  return *image;
 }
 
 PairContext GrainContacts::context_of(const GrainFrame& a, const GrainFrame& b,
@@ -133,8 +165,9 @@ template <ContactLaw Law>
 void GrainContacts::evaluate_plainly(const Law& law, std::size_t p,
                                      std::span<const GrainFrame> frames, double time_step,
                                      Scratch& scratch) {
+  std::optional<GrainFrame> image;
   const GrainFrame& a = frames[pairs_[p].slot_a];
-  const GrainFrame& b = frames[pairs_[p].slot_b];
+  const GrainFrame& b = image_of_b(p, frames, image);
   const SidedSprings old{store_.read(springs_of_pair_[p])};
   const PairContext context = context_of(a, b, time_step);
   PairForce pair;
@@ -158,8 +191,9 @@ void GrainContacts::evaluate_plainly(const Law& law, std::size_t p,
 /// Finds the touching nodes of a pair by its near lists and lets them wait for their law.
 void GrainContacts::find_nodes(std::size_t p, std::span<const GrainFrame> frames, double time_step,
                                double odometer, Scratch& scratch) {
+  std::optional<GrainFrame> image;
   const GrainFrame& a = frames[pairs_[p].slot_a];
-  const GrainFrame& b = frames[pairs_[p].slot_b];
+  const GrainFrame& b = image_of_b(p, frames, image);
   const SidedSprings old{store_.read(springs_of_pair_[p])};
   const PairContext context = context_of(a, b, time_step);
   double wake = wake_never;
@@ -173,6 +207,10 @@ void GrainContacts::find_nodes(std::size_t p, std::span<const GrainFrame> frames
     scratch.batch.add(context, master.position, motion_of(master), motion_of(slave),
                       scratch.touches, old.of(master_is_b));
   });
+  if (cell_) {  // soon enough for the images that were not looked at
+    const double both_radii = a.shape->bounding_radius + b.shape->bounding_radius;
+    wake = std::min(wake, odometer + (image_distance_ - both_radii));
+  }
   scratch.waiting.push_back({p, wake});
 }
 
@@ -245,7 +283,7 @@ void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_ste
                              std::size_t owned, const std::function<void()>& others_arrive) {
   const bool uses_meter = engine_ == ContactEngine::near;
   if (uses_meter) {
-    meter_.begin(frames);
+    meter_.begin(frames, cell_ ? &cell_motion_ : nullptr);
     meter_.follow(frames, 0, owned);
   }
   store_.begin_writing(thread_count());
@@ -329,6 +367,7 @@ void GrainContacts::adopt(std::span<const PairSprings> springs) {
       springs_of_pair_.emplace_back();
       wake_.push_back(wake_always);
       near_.emplace_back();
+      if (cell_) images_.emplace_back();
     }
     const std::uint32_t p = entry->second;
     if (springs_of_pair_[p].count > 0) continue;  // both ranks of a pair hold the same springs

@@ -16,6 +16,7 @@
 #include "reckon/contact/touch.hpp"
 #include "reckon/contact/touch_batch.hpp"
 #include "reckon/grains/grain_frame.hpp"
+#include "reckon/grains/periodic_cell.hpp"
 #include "reckon/neighbor/pair_list.hpp"
 
 namespace reckon {
@@ -29,6 +30,8 @@ struct PairForce {
   double elastic{0};          ///< stored [J]
   double friction{0};         ///< lost in this step [J]
   double dashpot{0};          ///< lost in this step [J]
+  double stiffness{0};        ///< see ContactLaw [N/m]
+  double damping{0};          ///< likewise [N s/m]
   std::uint32_t touching{0};  ///< nodes
 };
 
@@ -82,6 +85,10 @@ class GrainContacts {
 
   /// The springs of the last evaluate() become the memory of the next.
   void commit();
+
+  /// From the next evaluate() on, pairs meet in this cell, as it is then. `motion` tells how it has
+  /// moved since the last evaluate().
+  void set_cell(const PeriodicCell& cell, const CellMotion& motion);
 
   /// Sets the Coulomb coefficient from the next evaluate() on.
   void set_friction(double friction) { settings_.friction = friction; }
@@ -144,6 +151,8 @@ class GrainContacts {
   template <ContactLaw Law>
   void answer_waiting(const Law& law, std::span<const GrainFrame> frames, double time_step,
                       Scratch& scratch);
+  const GrainFrame& image_of_b(std::size_t p, std::span<const GrainFrame> frames,
+                               std::optional<GrainFrame>& image);
   [[nodiscard]] PairContext context_of(const GrainFrame& a, const GrainFrame& b,
                                        double time_step) const;
   void settle(std::size_t p, double wake, bool had_springs, ContactCounters& counters);
@@ -164,6 +173,10 @@ class GrainContacts {
   MotionMeter meter_;
   std::vector<double> wake_;    // per pair: odometer reading; minus infinity: awake
   std::vector<NearPair> near_;  // per pair
+  std::optional<PeriodicCell> cell_;
+  CellMotion cell_motion_;
+  std::vector<Vec3> images_;  // with a cell, per pair: which image of b its near lists are about
+  double image_distance_{0};  // of two grains, to images that are not nearest, at least [m]
   std::vector<Scratch> scratch_;
   ContactCounters counters_;
 };

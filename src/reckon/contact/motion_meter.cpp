@@ -33,7 +33,9 @@ bool is_rotation(const Mat3& matrix) {
   return std::abs(squared_norm(matrix.row_x) - 1) <= squared_length_tolerance;
 }
 
-void MotionMeter::begin(std::span<const GrainFrame> frames) {
+void MotionMeter::begin(std::span<const GrainFrame> frames, const CellMotion* cell) {
+  cell_.reset();
+  if (cell != nullptr && cell->deformation != UpperMat3::identity()) cell_ = *cell;
   const bool same_slots =
       std::equal(frames.begin(), frames.end(), seen_.begin(), seen_.end(),
                  [](const GrainFrame& frame, const Seen& seen) { return frame.id == seen.id; });
@@ -41,16 +43,21 @@ void MotionMeter::begin(std::span<const GrainFrame> frames) {
   trustworthy_ = true;
 }
 
+double MotionMeter::motion_of(const GrainFrame& now, const Seen& before) const {
+  const double turned = now.shape->bounding_radius * turn_distance(before.rotation, now.rotation);
+  if (!cell_) return norm(now.position - before.position) + turned;
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  return norm(now.position - cell_->carried(before.position)) + 0.5 * cell_->of_pair() +
+         rounding * (norm(now.position) + norm(cell_->center)) + turned;
+}
+
 void MotionMeter::follow(std::span<const GrainFrame> frames, std::size_t first, std::size_t last) {
   const double bad = parallel_max(last - first, 0, [&](std::size_t n) {
     const std::size_t slot = first + n;
     const GrainFrame& now = frames[slot];
     Seen& before = seen_[slot];
-    if (now.position != before.position || now.rotation != before.rotation) {
-      const double motion =
-          norm(now.position - before.position) +
-          now.shape->bounding_radius * turn_distance(before.rotation, now.rotation);
-      travelled_[slot] = (travelled_[slot] + motion) * round_up;
+    if (cell_ || now.position != before.position || now.rotation != before.rotation) {
+      travelled_[slot] = (travelled_[slot] + motion_of(now, before)) * round_up;
       before.position = now.position;
       before.rotation = now.rotation;
     }

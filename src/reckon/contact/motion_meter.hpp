@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "reckon/grains/grain_frame.hpp"
+#include "reckon/math/upper_triangular.hpp"
 
 namespace reckon {
 
@@ -18,6 +20,22 @@ namespace reckon {
 /// as turn_distance needs. Only the quaternions of an input file may fail.
 [[nodiscard]] bool is_rotation(const Mat3& matrix);
 
+/// How a periodic cell has moved since the last look.
+struct CellMotion {
+  Vec3 center;            ///< [m]
+  UpperMat3 deformation;  ///< F: what moves with the cell goes to F (x - centre)
+  double farthest{0};     ///< no two grains that may touch are farther apart than this [m]
+
+  /// How far it has moved two near grains against each other, at most [m].
+  [[nodiscard]] double of_pair() const {
+    return frobenius_norm(deformation + -1.0 * UpperMat3::identity()) * farthest;
+  }
+  /// Where what was at `before` would be if it had moved with the cell [m].
+  [[nodiscard]] Vec3 carried(const Vec3& before) const {
+    return center + deformation * (before - center);
+  }
+};
+
 /// How far each grain has travelled: a bound that only grows. No point of grain g that lies within
 /// its bounding radius moves farther between two calls of follow() than travelled()[g] grows:
 ///
@@ -25,6 +43,10 @@ namespace reckon {
 ///
 /// So two grains that are known to be `d` apart do not touch before the sum of what both have
 /// travelled has grown by d. The meter looks at frames alone, whatever moved them.
+///
+/// In a periodic cell x is that which the cell's own motion F carried along, and half of what F
+/// does to two near grains is added to each: a grain far from the centre is no faster than one near
+/// it.
 class MotionMeter {
  public:
   /// Adds the motion since the last call. Slots may hold other grains than before: a grain is
@@ -35,7 +57,7 @@ class MotionMeter {
   }
   /// The same in parts, for frames that do not all arrive at once: first begin(), for which only
   /// the ids need to be there, then every slot in one call of follow(frames, first, last).
-  void begin(std::span<const GrainFrame> frames);
+  void begin(std::span<const GrainFrame> frames, const CellMotion* cell = nullptr);
   void follow(std::span<const GrainFrame> frames, std::size_t first, std::size_t last);
 
   /// False when some frame's matrix is no rotation: then nothing may be concluded from what was
@@ -51,10 +73,12 @@ class MotionMeter {
     Mat3 rotation;
   };
   void reorder(std::span<const GrainFrame> frames);
+  [[nodiscard]] double motion_of(const GrainFrame& now, const Seen& before) const;
 
   std::vector<Seen> seen_;         // per slot, at the last call
   std::vector<double> travelled_;  // per slot [m]
   bool trustworthy_{true};
+  std::optional<CellMotion> cell_;
 };
 
 }  // namespace reckon

@@ -21,8 +21,9 @@ double imbalance(const Communicator& ranks, std::span<const double> costs) {
 }  // namespace
 
 void BalancedDecomposition::update(std::span<const Vec3> positions, std::span<const double> costs,
-                                   double reach) {
+                                   double reach, const Vec3& period) {
   reach_ = reach;
+  period_ = period;
   if (ranks_.size() == 1) {
     regions_.assign(1, Region{});
     return;
@@ -36,16 +37,20 @@ int BalancedDecomposition::owner_of(GrainId /*id*/, const Vec3& position) const 
 }
 
 GhostExchange::Sends sends_within_reach(std::span<const Region> regions, int own, double reach,
-                                        std::span<const BorderGrain> known) {
+                                        std::span<const BorderGrain> known, const Vec3& period) {
   GhostExchange::Sends sends;
   const Region& home = regions[static_cast<std::size_t>(own)];
   for (int rank = 0; rank < static_cast<int>(regions.size()); ++rank) {
     const Region& other = regions[static_cast<std::size_t>(rank)];
-    if (rank == own || !home.within(other, reach)) continue;
+    if (rank == own) continue;
+    // Both sides ask in the same order, so that they agree to the last bit.
+    const bool near =
+        rank < own ? other.within(home, reach, period) : home.within(other, reach, period);
+    if (!near) continue;
     sends.peers.push_back(rank);
     auto& indices = sends.indices.emplace_back();
     for (std::uint32_t n = 0; n < known.size(); ++n) {
-      if (other.squared_distance(known[n].state.position) <= reach * reach) indices.push_back(n);
+      if (other.squared_distance(known[n].place, period) <= reach * reach) indices.push_back(n);
     }
   }
   return sends;
@@ -54,7 +59,7 @@ GhostExchange::Sends sends_within_reach(std::span<const Region> regions, int own
 std::unique_ptr<Ghosts> BalancedDecomposition::exchange_ghosts(
     std::vector<BorderGrain> owned) const {
   const GhostExchange::Choose to_all_within_reach = [this](std::span<const BorderGrain> known) {
-    return sends_within_reach(regions_, ranks_.rank(), reach_, known);
+    return sends_within_reach(regions_, ranks_.rank(), reach_, known, period_);
   };
   return std::make_unique<GhostExchange>(ranks_, std::move(owned),
                                          std::span{&to_all_within_reach, 1});

@@ -14,10 +14,11 @@ namespace reckon {
                                          std::span<const double> costs, int parts);
 
 /// What the rank of regions[own] sends: to each rank whose region is within `reach` of its own, the
-/// grains within `reach` of that region.
+/// grains within `reach` of that region. See Decomposition::update for `period`.
 [[nodiscard]] GhostExchange::Sends sends_within_reach(std::span<const Region> regions, int own,
                                                       double reach,
-                                                      std::span<const BorderGrain> known);
+                                                      std::span<const BorderGrain> known,
+                                                      const Vec3& period = {});
 
 /// Largest cost of a rank / mean cost, beyond which regions are drawn again.
 inline constexpr double most_imbalance = 1.10;
@@ -28,8 +29,8 @@ class BalancedDecomposition final : public Decomposition {
  public:
   explicit BalancedDecomposition(Communicator ranks) : ranks_{std::move(ranks)} {}
 
-  void update(std::span<const Vec3> positions, std::span<const double> costs,
-              double reach) override;
+  void update(std::span<const Vec3> positions, std::span<const double> costs, double reach,
+              const Vec3& period) override;
   [[nodiscard]] int owner_of(GrainId id, const Vec3& position) const override;
   [[nodiscard]] std::unique_ptr<Ghosts> exchange_ghosts(
       std::vector<BorderGrain> owned) const override;
@@ -38,6 +39,7 @@ class BalancedDecomposition final : public Decomposition {
   Communicator ranks_;
   std::vector<Region> regions_;
   double reach_{0};
+  Vec3 period_;
 };
 
 }  // namespace reckon

@@ -27,9 +27,10 @@ class Decomposition {
 
   /// Collective, when lists are made anew: draws the regions again where grains have left them.
   /// `positions` and `costs` are those of the owned grains; `reach` is the largest distance of two
-  /// centres that may touch before the next lists [m].
-  virtual void update(std::span<const Vec3> positions, std::span<const double> costs,
-                      double reach) = 0;
+  /// centres that may touch before the next lists [m]. Space repeats itself along axes where
+  /// `period` is above zero; positions are then between zero and that [m].
+  virtual void update(std::span<const Vec3> positions, std::span<const double> costs, double reach,
+                      const Vec3& period) = 0;
   [[nodiscard]] virtual int owner_of(GrainId id, const Vec3& position) const = 0;
 
   /// Collective, after every grain has gone to its owner.

@@ -22,11 +22,13 @@ struct GhostState {
   Vec3 angular_velocity_body;
 };
 
-/// A ghost when lists are made: what it is, and its state.
+/// A ghost when lists are made: what it is, its state, and where decompositions see it (in a
+/// periodic cell, PeriodicCell::place).
 struct BorderGrain {
   GrainId id;
   ShapeId shape;
   GhostState state;
+  Vec3 place{};  ///< [m]
 };
 
 /// The grains of other ranks that this rank needs to see, kept up to date step by step.

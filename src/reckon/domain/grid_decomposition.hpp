@@ -8,9 +8,11 @@
 namespace reckon {
 
 /// What block `block` sends in the phase along `axis`: to its lower and upper neighbour the grains
-/// in its first and last layer of bins, with those that earlier phases brought there.
+/// in its first and last layer of bins, with those that earlier phases brought there. Where the
+/// axis is `periodic`, the first and the last block are neighbours.
 [[nodiscard]] GhostExchange::Sends border_layers(const GridCut& cut, int block, int axis,
-                                                 std::span<const BorderGrain> known);
+                                                 std::span<const BorderGrain> known,
+                                                 bool periodic = false);
 
 /// The paper's decomposition: equal blocks of whole bins, one block a rank, a padding layer of bins
 /// around each, filled in three phases. x first; y then also passes on what x brought, and z what
@@ -27,8 +29,8 @@ class GridDecomposition final : public Decomposition {
  public:
   explicit GridDecomposition(Communicator ranks) : ranks_{std::move(ranks)} {}
 
-  void update(std::span<const Vec3> positions, std::span<const double> costs,
-              double reach) override;
+  void update(std::span<const Vec3> positions, std::span<const double> costs, double reach,
+              const Vec3& period) override;
   [[nodiscard]] int owner_of(GrainId /*id*/, const Vec3& position) const override {
     return cut_.owner_of(position);
   }
@@ -42,6 +44,7 @@ class GridDecomposition final : public Decomposition {
   GridCut cut_;
   Region domain_;
   double reach_{0};
+  Vec3 period_;
 };
 
 }  // namespace reckon

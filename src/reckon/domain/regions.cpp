@@ -7,20 +7,45 @@
 
 namespace reckon {
 
-double Region::squared_distance(const Vec3& p) const {
+namespace {
+
+struct Interval {
+  double low;
+  double high;
+};
+
+/// Distance of two intervals of a line, or of a circle of length `period` if that is above zero.
+double gap_between(Interval a, Interval b, double period) {
+  const auto gap = [](const Interval& p, const Interval& q) {
+    return std::max({p.low - q.high, q.low - p.high, 0.0});
+  };
+  if (!(period > 0)) return gap(a, b);
+  const auto cut = [period](const Interval& p) {
+    return Interval{std::max(p.low, 0.0), std::min(p.high, period)};
+  };
+  a = cut(a);
+  b = cut(b);
+  return std::min({gap(a, b), gap(a, {b.low - period, b.high - period}),
+                   gap(a, {b.low + period, b.high + period})});
+}
+
+}  // namespace
+
+double Region::squared_distance(const Vec3& p, const Vec3& period) const {
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double outside = std::max({low[axis] - p[axis], p[axis] - high[axis], 0.0});
+    const double outside = gap_between({low[axis], high[axis]}, {p[axis], p[axis]}, period[axis]);
     sum += outside * outside;
   }
   return sum;
 }
 
-bool Region::within(const Region& other, double reach) const {
+bool Region::within(const Region& other, double reach, const Vec3& period) const {
   if (empty() || other.empty()) return false;
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double gap = std::max({low[axis] - other.high[axis], other.low[axis] - high[axis], 0.0});
+    const double gap =
+        gap_between({low[axis], high[axis]}, {other.low[axis], other.high[axis]}, period[axis]);
     sum += gap * gap;
   }
   return sum <= reach * reach;

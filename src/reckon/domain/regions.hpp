@@ -22,10 +22,11 @@ struct Region {
            p.z < high.z;
   }
   [[nodiscard]] bool empty() const { return !(low.x < high.x && low.y < high.y && low.z < high.z); }
-  /// Squared distance from the box, zero inside [m^2].
-  [[nodiscard]] double squared_distance(const Vec3& p) const;
+  /// Squared distance from the box, zero inside [m^2]. Along axes where `period` is above zero
+  /// space repeats itself, and the box counts between zero and that.
+  [[nodiscard]] double squared_distance(const Vec3& p, const Vec3& period = {}) const;
   /// Whether some point of this box is within `reach` of some point of the other.
-  [[nodiscard]] bool within(const Region& other, double reach) const;
+  [[nodiscard]] bool within(const Region& other, double reach, const Vec3& period = {}) const;
 };
 
 /// The smallest box around points, closed by a hair so that it contains them all. No points: empty.

@@ -14,7 +14,7 @@ class ReplicatedDecomposition final : public Decomposition {
       : ranks_{std::move(ranks)}, grain_count_{grain_count} {}
 
   void update(std::span<const Vec3> /*positions*/, std::span<const double> /*costs*/,
-              double /*reach*/) override {}
+              double /*reach*/, const Vec3& /*period*/) override {}
   [[nodiscard]] int owner_of(GrainId id, const Vec3& position) const override;
   [[nodiscard]] std::unique_ptr<Ghosts> exchange_ghosts(
       std::vector<BorderGrain> owned) const override;

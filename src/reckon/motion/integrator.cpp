@@ -10,18 +10,18 @@ constexpr double settled = 1e-15;  // relative to the angular velocity
 
 }  // namespace
 
-Kick kick(const Grains& grains, std::size_t slot, const Mat3& rotation, const Load& load,
-          const Inertia& inertia, double damping, double time_step) {
+Kick kick(const Kick& before, const Mat3& rotation, const Load& load, const Inertia& inertia,
+          double damping, double time_step) {
   Kick result;
   const double half_damping = 0.5 * damping * time_step;
   result.velocity =
-      ((1 - half_damping) * grains.velocity[slot] + (time_step / inertia.mass) * load.force) /
+      ((1 - half_damping) * before.velocity + (time_step / inertia.mass) * load.force) /
       (1 + half_damping);
 
   const Vec3 moment = transposed_times(rotation, load.moment);  // body frame
   const Vec3& i = inertia.moments;
-  const Vec3& omega = grains.angular_velocity_body[slot];
-  Vec3 increment = grains.angular_increment_body[slot];
+  const Vec3& omega = before.angular_velocity_body;
+  Vec3 increment = before.angular_increment_body;
   for (int round = 0; round < most_corrector_rounds; ++round) {
     const Vec3 middle = omega + 0.5 * increment;
     const Vec3 next{

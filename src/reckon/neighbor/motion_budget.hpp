@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "reckon/math/vec3.hpp"
+#include "reckon/grains/periodic_cell.hpp"
 
 namespace reckon {
 
@@ -21,18 +21,26 @@ struct MotionBudget {
   double least{0};    ///< half the skin [m]
   double most{0};     ///< [m]
   double horizon{0};  ///< how long a list should live [s]
+  /// In a periodic cell, motion with the cell costs no budget but what moves two near grains
+  /// against each other: the cell's velocity gradient and its centre.
+  UpperMat3 gradient{};
+  Vec3 center{};
 
   /// Lists should live for 50 steps, unless that takes more than four skins. `skin` in m.
   static MotionBudget with(double skin, double time_step) {
     constexpr double most_skins = 4;
     constexpr double steps = 50;
-    return {0.5 * skin, 0.5 * most_skins * skin, steps * time_step};
+    return {.least = 0.5 * skin, .most = 0.5 * most_skins * skin, .horizon = steps * time_step};
   }
 
   /// [m]
   [[nodiscard]] double of(const Vec3& velocity) const {
     // Not a number: the least; such a run ends anyway.
     return std::min(std::max(least, norm(velocity) * horizon), most);
+  }
+  /// Of a grain at `position` [m].
+  [[nodiscard]] double of(const Vec3& velocity, const Vec3& position) const {
+    return of(velocity - gradient * (position - center));
   }
 };
 

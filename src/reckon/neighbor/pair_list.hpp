@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reckon/core/id.hpp"
+#include "reckon/grains/periodic_cell.hpp"
 #include "reckon/math/vec3.hpp"
 
 namespace reckon {
@@ -27,16 +28,28 @@ struct Pair {
                                            std::span<const double> radii, double skin,
                                            std::size_t owned);
 
-/// The same by testing every grain against every other: the oracle.
+/// The same by testing every grain against every other: the oracle. With a cell, as below.
 [[nodiscard]] std::vector<Pair> find_pairs_brute_force(std::span<const GrainId> ids,
                                                        std::span<const Vec3> positions,
                                                        std::span<const double> radii, double skin,
-                                                       std::size_t owned);
+                                                       std::size_t owned,
+                                                       const PeriodicCell* cell = nullptr);
+
+/// The same between nearest images: LinkedBins of the grains in the cell, with copies of those near
+/// its lower faces behind its upper faces. The cell must be twice as wide as any pair reaches.
+[[nodiscard]] std::vector<Pair> find_pairs_in_cell(std::span<const GrainId> ids,
+                                                   std::span<const Vec3> positions,
+                                                   std::span<const double> radii, double skin,
+                                                   std::size_t owned, const PeriodicCell& cell);
 
 /// Appends the pair of slots `s` and `t` when their spheres come within `skin` of each other.
 void add_if_near(std::vector<Pair>& pairs, std::span<const GrainId> ids,
                  std::span<const Vec3> positions, std::span<const double> radii, double skin,
                  std::uint32_t s, std::uint32_t t);
+/// The same for their nearest images.
+void add_if_images_near(std::vector<Pair>& pairs, std::span<const GrainId> ids,
+                        std::span<const Vec3> positions, std::span<const double> radii, double skin,
+                        const PeriodicCell& cell, std::uint32_t s, std::uint32_t t);
 /// The order of every list of pairs: by id_a, then id_b.
 void sort_by_ids(std::vector<Pair>& pairs);
 

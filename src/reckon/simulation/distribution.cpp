@@ -125,12 +125,17 @@ std::vector<Bytes> Distribution::pack_leaving(const Grains& grains, std::span<co
 
 void Distribution::redistribute(Grains& grains, GrainContacts& grain_contacts,
                                 WallContacts& wall_contacts, std::span<const ShapeView> shapes,
-                                std::span<const double> costs, double reach) {
-  decomposition_->update(grains.position, costs, reach);
+                                std::span<const double> costs, double reach,
+                                const PeriodicCell* cell) {
+  cell_.reset();
+  if (cell != nullptr) cell_ = *cell;
+  const std::vector<Vec3> places = places_in(cell, grains.position);
+  decomposition_->update(places, costs, cell != nullptr ? reach * cell->stretch() : reach,
+                         cell != nullptr ? cell->widths() : Vec3{});
   std::vector<int> owners(grains.size());
   bool some_leave = false;
   for (std::size_t slot = 0; slot < grains.size(); ++slot) {
-    owners[slot] = decomposition_->owner_of(grains.id[slot], grains.position[slot]);
+    owners[slot] = decomposition_->owner_of(grains.id[slot], places[slot]);
     some_leave = some_leave || owners[slot] != ranks_.rank();
   }
   if (ranks_.any(some_leave)) {
@@ -170,7 +175,9 @@ void Distribution::list_ghosts(const Grains& grains) {
   std::vector<BorderGrain> owned;
   owned.reserve(grains.size());
   for (std::size_t slot = 0; slot < grains.size(); ++slot) {
-    owned.push_back({grains.id[slot], grains.shape[slot], ghost_state(grains, slot)});
+    const Vec3& position = grains.position[slot];
+    owned.push_back({grains.id[slot], grains.shape[slot], ghost_state(grains, slot),
+                     cell_ ? cell_->place(position) : position});
   }
   ghosts_ = decomposition_->exchange_ghosts(std::move(owned));
 }
@@ -192,9 +199,14 @@ std::vector<Pair> Distribution::find_pairs(std::span<const GrainFrame> frames,
   for (const GrainFrame& frame : frames) {
     ids.push_back(frame.id);
     positions.push_back(frame.position);
-    radii.push_back(frame.shape->bounding_radius + budget.of(frame.velocity));
+    radii.push_back(frame.shape->bounding_radius + budget.of(frame.velocity, frame.position));
   }
   constexpr double skin = 0;  // the radii have it
+  if (cell_) {
+    return kind_ == DecompositionKind::replicated
+               ? find_pairs_brute_force(ids, positions, radii, skin, owned, &*cell_)
+               : find_pairs_in_cell(ids, positions, radii, skin, owned, *cell_);
+  }
   switch (kind_) {
     case DecompositionKind::balanced:
       return reckon::find_pairs(ids, positions, radii, skin, owned);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "reckon/contact/grain_contacts.hpp"
 #include "reckon/domain/decomposition.hpp"
 #include "reckon/grains/grain_frame.hpp"
+#include "reckon/grains/periodic_cell.hpp"
 #include "reckon/neighbor/motion_budget.hpp"
 
 namespace reckon {
@@ -37,9 +39,11 @@ class Distribution {
   /// Collective. Across-block migration: every grain goes to the rank that owns its place, with the
   /// springs of all its contacts; geometry never travels. `costs` are per owned grain; `reach` is
   /// the largest distance of two centres that may touch before the next call [m]. Throws Error on
-  /// all ranks when the number of grains, their mass or their momentum is not what it was.
+  /// all ranks when the number of grains, their mass or their momentum is not what it was. The cell
+  /// that is given here, if any, stays that of the lists until the next call.
   void redistribute(Grains& grains, GrainContacts& grain_contacts, WallContacts& wall_contacts,
-                    std::span<const ShapeView> shapes, std::span<const double> costs, double reach);
+                    std::span<const ShapeView> shapes, std::span<const double> costs, double reach,
+                    const PeriodicCell* cell = nullptr);
   /// So many grains have left for good, on all ranks together.
   void expect_fewer(std::size_t count) { grain_count_ -= count; }
 
@@ -66,6 +70,7 @@ class Distribution {
   std::size_t grain_count_;
   std::unique_ptr<Decomposition> decomposition_;
   std::unique_ptr<Ghosts> ghosts_;
+  std::optional<PeriodicCell> cell_;
   CommunicationCounters counters_;
 };
 

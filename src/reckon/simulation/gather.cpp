@@ -115,6 +115,11 @@ SimulationState Simulation::state() {
     state.driven_walls = driven_walls_;
     state.stage_starts = stage_starts_;
     if (membrane() != nullptr) state.membrane = membrane_->state();
+    if (cell_) {
+      state.cell = cell_state_;
+      state.cell->edges = cell_->edges();
+      state.cell->rates = cell_->rates();
+    }
   }
   std::sort(state.departed.begin(), state.departed.end(),
             [](const DepartedGrain& a, const DepartedGrain& b) { return a.grain.id < b.grain.id; });
@@ -149,15 +154,21 @@ std::vector<ContactRecord> Simulation::contacts() {
     const PairForce& force = grain_contacts_.forces()[p];
     const Pair& pair = grain_contacts_.pairs()[p];
     if (force.touching == 0 || pair.slot_a >= grains_.size()) continue;
-    records.push_back({pair.id_a, false, pair.id_b.get(), frames_[pair.slot_a].position,
-                       frames_[pair.slot_b].position, force.force_on_a, force.deepest,
+    Vec3 from = frames_[pair.slot_a].position;
+    Vec3 to = frames_[pair.slot_b].position;
+    if (cell_) {
+      from = cell_->wrapped(from);
+      to = from - branch(pair);
+    }
+    records.push_back({pair.id_a, false, pair.id_b.get(), from, to, force.force_on_a, force.deepest,
                        force.touching});
   }
   for (std::size_t c = 0; c < wall_contacts_.candidates().size(); ++c) {
     const WallForce& force = wall_contacts_.forces()[c];
     if (force.touching == 0) continue;
     const auto& candidate = wall_contacts_.candidates()[c];
-    const Vec3& center = grains_.position[candidate.slot];
+    const Vec3& position = grains_.position[candidate.slot];
+    const Vec3 center = cell_ ? cell_->wrapped(position) : position;
     records.push_back({candidate.grain, true, candidate.wall.get(), center,
                        foot_on_wall(setup_.walls[candidate.wall.get()],
                                     wall_contacts_.poses()[candidate.wall.get()], center),

@@ -67,12 +67,12 @@ Measurement Simulation::measure() {
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
     const Inertia& body = inertias_[slot];
     const Load load = total_load(slot, push_besides_gravity(slot));
-    Vec3 velocity = grains_.velocity[slot];
+    Vec3 velocity = velocity_in_cell(slot);
     Vec3 spin = grains_.angular_velocity_body[slot];
     if (grains_.prescribed[slot] == 0) {
       // Velocities at the step: the mean of both half steps.
-      const Kick half =
-          kick(grains_, slot, frames_[slot].rotation, load, body, setup_.damping, setup_.time_step);
+      const Kick half = kick({velocity, spin, grains_.angular_increment_body[slot]},
+                             frames_[slot].rotation, load, body, setup_.damping, setup_.time_step);
       velocity = 0.5 * (velocity + half.velocity);
       spin = 0.5 * (spin + half.angular_velocity_body);
       sums.net_force.add(norm(load.force));
@@ -145,6 +145,7 @@ Measurement Simulation::measure() {
   result.wall_contacts = static_cast<std::uint64_t>(sums.wall_contacts);
   result.touching_nodes = static_cast<std::uint64_t>(sums.touching_nodes);
   result.energy = budget(sums);
+  if (cell_) result.energy.wall_work += cell_work_now();
   result.momentum = sums.momentum.value();
   for (const ExactVec3& force : sums.on_walls) result.wall_force.push_back(force.value());
   if (membrane() != nullptr) {

@@ -48,6 +48,7 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
     largest_radius_ = std::max(largest_radius_, shape.bounding_radius);
   }
   for (const GrainState& grain : state.grains) grains_.push_back(grain);
+  take_over_cell(state);
   grain_contacts_.adopt(state.pair_springs);
   wall_contacts_.adopt(state.wall_springs);
   departed_ = state.departed;
@@ -62,8 +63,10 @@ void Simulation::step() {
   Stopwatch watch;
   sum_loads(grains_.ledger);
   phase_times_.loads += watch.lap();
+  if (cell_) drive_cell();
   advance_grains();
   advance_walls();
+  if (cell_) move_cell();
   if (membrane() != nullptr) membrane_->advance(setup_.time_step);
   commit_springs();
   ++step_;
@@ -82,8 +85,11 @@ void Simulation::bring_up_to_date() {
   if (membrane() != nullptr) membrane_->follow(wall_contacts_.poses());
   if (lists_are_stale_) {
     let_grains_out();
+    if (cell_) budget_.gradient = cell_->gradient();
+    list_reach_ = 2 * (largest_radius_ + largest_budget());
+    if (cell_) require_wide_cell(list_reach_);
     distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_, costs_,
-                               2 * (largest_radius_ + largest_budget()));
+                               list_reach_, cell());
     put_in_order();
     phase_times_.migration += watch.lap();
     distribution_.list_ghosts(grains_);
@@ -140,7 +146,7 @@ void Simulation::let_grains_out() {
 
 /// Neighbours in space become neighbours in memory.
 void Simulation::put_in_order() {
-  const std::vector<std::uint32_t> order = space_order(grains_.position);
+  const std::vector<std::uint32_t> order = space_order(places_in(cell(), grains_.position));
   if (std::is_sorted(order.begin(), order.end())) return;
   Grains ordered;
   for (const std::uint32_t slot : order) ordered.push_back(grains_.state(slot));
@@ -181,12 +187,14 @@ void Simulation::rebuild_lists() {
   membrane_contacts_.forget();
   listed_grains_.clear();
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
-    listed_grains_.push_back({grains_.position[slot], budget_.of(grains_.velocity[slot])});
+    listed_grains_.push_back(
+        {grains_.position[slot], budget_.of(grains_.velocity[slot], grains_.position[slot])});
   }
   listed_walls_.clear();
   for (const WallPose& pose : wall_contacts_.poses()) {
     listed_walls_.push_back({pose.displacement, budget_.of(pose.velocity)});
   }
+  cell_since_lists_ = UpperMat3::identity();
   lists_are_stale_ = false;
   ++list_rebuilds_;
   const auto owned = static_cast<std::uint32_t>(grains_.size());
@@ -209,6 +217,8 @@ void Simulation::count_work() {
 
 void Simulation::evaluate_contacts() {
   Stopwatch watch;
+  if (cell_) grain_contacts_.set_cell(*cell_, cell_motion());
+  cell_since_evaluation_ = UpperMat3::identity();
   // Inner pairs and walls hide the time in which ghosts are on their way.
   grain_contacts_.evaluate(frames_, setup_.time_step, grains_.size(), [&] {
     phase_times_.grain_contacts += watch.lap();
@@ -225,8 +235,9 @@ void Simulation::evaluate_contacts() {
 /// The largest of all ranks for the lists about to be made [m].
 double Simulation::largest_budget() const {
   return distribution_.ranks().max(
-      parallel_max(grains_.size(), budget_.least,
-                   [&](std::size_t slot) { return budget_.of(grains_.velocity[slot]); }));
+      parallel_max(grains_.size(), budget_.least, [&](std::size_t slot) {
+        return budget_.of(grains_.velocity[slot], grains_.position[slot]);
+      }));
 }
 
 /// Whether some grain of this rank, or some wall, has moved as far as it was listed for.
@@ -237,6 +248,15 @@ bool Simulation::some_budget_is_used_up() const {
   const auto poses = poses_at(setup_.walls, driven_walls_, step_, setup_.time_step);
   for (std::size_t w = 0; w < listed_walls_.size(); ++w) {
     if (used_up(listed_walls_[w], poses[w].displacement)) return true;
+  }
+  if (cell_) {
+    const CellMotion motion{cell_->center(), cell_since_lists_, list_reach_};
+    const double shared = 0.5 * motion.of_pair();
+    return parallel_max(grains_.size(), 0, [&](std::size_t slot) {
+             const Listed& listed = listed_grains_[slot];
+             const Vec3 own = grains_.position[slot] - motion.carried(listed.place);
+             return norm(own) + shared < listed.budget ? 0.0 : 1.0;
+           }) > 0;
   }
   return parallel_max(grains_.size(), 0, [&](std::size_t slot) {
            return used_up(listed_grains_[slot], grains_.position[slot]) ? 1.0 : 0.0;
@@ -284,24 +304,31 @@ void Simulation::advance_grains() {
     const Load load = total_load(slot, push);
     const Inertia& body = inertias_[slot];
     const Mat3& rotation = frames_[slot].rotation;
-    const Vec3 velocity_before = grains_.velocity[slot];
-    const Vec3 spin_before = grains_.angular_velocity_body[slot];
+    Kick before = velocities_of(grains_, slot);
+    before.velocity = velocity_in_cell(slot);
+    const Vec3 velocity_before = before.velocity;
+    const Vec3 spin_before = before.angular_velocity_body;
     EnergyLedger& ledger = grains_.ledger[slot];
     if (grains_.prescribed[slot] != 0) {
       // What holds the grain to its course supplies the opposite of its load.
       const Vec3 spin_world = rotation * spin_before;
       ledger.wall_work -= (dot(load.force, velocity_before) + dot(load.moment, spin_world)) * dt;
-      drift(grains_, slot, {velocity_before, spin_before, {}}, dt);
+      drift(grains_, slot, {grains_.velocity[slot], spin_before, {}}, dt);
       return;
     }
-    const Kick half = kick(grains_, slot, rotation, load, body, setup_.damping, dt);
+    Kick half = kick(before, rotation, load, body, setup_.damping, dt);
     const Vec3 velocity = 0.5 * (velocity_before + half.velocity);
     const Vec3 spin = 0.5 * (spin_before + half.angular_velocity_body);
     ledger.damping +=
         setup_.damping * dt *
         (body.mass * squared_norm(velocity) + dot(hadamard(body.moments, spin), spin));
     ledger.body_work += body.mass * dot(push, velocity) * dt;
+    if (!cell_) return drift(grains_, slot, half, dt);
+    const Vec3 alone = half.velocity;
+    const Vec3 along = cell_gradient_ * (grains_.position[slot] - cell_->center());
+    half.velocity += along;
     drift(grains_, slot, half, dt);
+    ledger.wall_work += work_of_cell_on(slot, alone, along);
   });
 }
 

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "reckon/boundary/cell_control.hpp"
 #include "reckon/boundary/membrane.hpp"
 #include "reckon/boundary/membrane_contacts.hpp"
 #include "reckon/boundary/wall_contacts.hpp"
@@ -15,6 +18,7 @@
 #include "reckon/contact/grain_contacts.hpp"
 #include "reckon/domain/shape_store.hpp"
 #include "reckon/grains/grain_frame.hpp"
+#include "reckon/grains/periodic_cell.hpp"
 #include "reckon/motion/body_force.hpp"
 #include "reckon/motion/integrator.hpp"
 #include "reckon/simulation/distribution.hpp"
@@ -38,7 +42,15 @@ struct StageSetup {
   Vec3 gravity;                       ///< [m/s^2]
   double damping{0};                  ///< global damping xi [1/s]
   std::vector<WallControl> controls;
+  std::vector<CellControl> cell_controls;
   std::optional<MembranePressure> membrane;  ///< none: not in place yet
+};
+
+/// A periodic cell at the start.
+struct CellSetup {
+  Vec3 center;                                     ///< stays where it is [m]
+  std::array<bool, 3> periodic{true, true, true};  ///< by axis
+  Vec3 size;                                       ///< edges, along the axes [m]
 };
 
 /// What stays the same from the first step to the last.
@@ -48,7 +60,8 @@ struct SimulationSetup {
   ContactSettings contact;
   std::vector<Wall> walls;
   std::optional<MembraneSetup> membrane;  ///< takes its place with the first stage that has it
-  std::vector<PlaneSurface> outflows;     ///< a grain whose centre is behind one leaves
+  std::optional<CellSetup> cell;
+  std::vector<PlaneSurface> outflows;  ///< a grain whose centre is behind one leaves
   BodyForce body_force;
   double damping{0};    ///< global damping xi [1/s]
   double time_step{0};  ///< [s]
@@ -80,6 +93,7 @@ struct SimulationState {
   /// at the start.
   std::vector<std::uint64_t> stage_starts;
   MembraneState membrane;
+  std::optional<CellState> cell;  ///< none at the start
 
   friend bool operator==(const SimulationState&, const SimulationState&) = default;
 };
@@ -90,7 +104,7 @@ struct ContactRecord {
   bool with_wall{false};
   /// The other grain's id, or the wall's place in the scene; the membrane comes after all walls.
   std::uint32_t partner{0};
-  Vec3 from;          ///< the grain's centre [m]
+  Vec3 from;          ///< the grain's centre; in a periodic cell, in the cell [m]
   Vec3 to;            ///< the partner's centre, or the foot of the grain's centre on the wall
   Vec3 force;         ///< on `grain` [N]
   double deepest{0};  ///< largest penetration of a node [m]
@@ -146,8 +160,20 @@ class Simulation {
     return membrane_ && membrane_->in_place() ? &*membrane_ : nullptr;
   }
   [[nodiscard]] const MembraneContacts& membrane_contacts() const { return membrane_contacts_; }
+  /// The periodic cell as of the current step, else nothing.
+  [[nodiscard]] const PeriodicCell* cell() const { return cell_ ? &*cell_ : nullptr; }
+  [[nodiscard]] const CellState& cell_state() const { return cell_state_; }
+  /// What grains do to the cell as of the last evaluation, summed over all ranks. Collective.
+  [[nodiscard]] CellReaction cell_reaction() const;
+  /// From b's centre to a's, in a periodic cell from that of b's nearest image [m].
+  [[nodiscard]] Vec3 branch(const Pair& pair) const {
+    const Vec3& a = frames_[pair.slot_a].position;
+    const Vec3& b = frames_[pair.slot_b].position;
+    return cell_ ? cell_->branch(a, b) : a - b;
+  }
   /// The space that walls, or walls and membrane, close off as of the last evaluation, and where
-  /// the stage under way began. Nothing where they do not, or its volume is not known.
+  /// the stage under way began; or a cell that is periodic along all axes. Nothing where they do
+  /// not, or its volume is not known.
   [[nodiscard]] std::optional<Enclosure> space() const;
   [[nodiscard]] std::optional<Enclosure> space_at_stage_start() const;
   /// What the walls feel as of the last evaluation, summed over all ranks. Collective.
@@ -183,6 +209,16 @@ class Simulation {
   void let_membrane_take_place();
   [[nodiscard]] double membrane_pressure() const;
   void evaluate_membrane();
+  void take_over_cell(const SimulationState& state);
+  void begin_stage_of_cell();
+  void drive_cell();
+  void move_cell();
+  [[nodiscard]] CellMotion cell_motion() const;
+  [[nodiscard]] double cell_work_now() const;
+  [[nodiscard]] double work_of_cell_on(std::size_t slot, const Vec3& alone,
+                                       const Vec3& along) const;
+  void require_wide_cell(double reach) const;
+  [[nodiscard]] Vec3 velocity_in_cell(std::size_t slot) const;
   void advance_grains();
   void advance_walls();
   void commit_springs();
@@ -211,7 +247,15 @@ class Simulation {
   MembraneContacts membrane_contacts_;
   std::vector<DepartedGrain> departed_;  // on this rank
   std::uint64_t step_{0};
-  std::vector<DrivenWall> driven_walls_;  // the same on all ranks
+  std::vector<DrivenWall> driven_walls_;   // the same on all ranks
+  std::optional<PeriodicCell> cell_;       // the same on all ranks
+  CellState cell_state_;                   // but edges and rates, which cell_ has
+  std::optional<PeriodicCell> next_cell_;  // a step on
+  UpperMat3 cell_gradient_;                // of its velocity over the step to come [1/s]
+  UpperMat3 cell_step_;                    // deformation over the step to come
+  UpperMat3 cell_since_evaluation_{UpperMat3::identity()};  // deformation
+  UpperMat3 cell_since_lists_{UpperMat3::identity()};       // likewise
+  double list_reach_{0};  // no two grains closer than this are without a list [m]
   std::vector<std::uint64_t> stage_starts_;
 
   /// Where a grain was, or a wall's displacement, when the lists were made, and how far it may go.

@@ -9,6 +9,18 @@
 #include "reckon/simulation/simulation.hpp"
 
 namespace reckon {
+namespace {
+
+/// A cell that closes its space off, or nothing.
+std::optional<Enclosure> inside(const PeriodicCell& cell, const UpperMat3& edges,
+                                std::size_t walls) {
+  if (!cell.is_closed()) return std::nullopt;
+  const Vec3& size = edges.diagonal;
+  return Enclosure{size.x * size.y * size.z, cell.center() - 0.5 * size, cell.center() + 0.5 * size,
+                   std::vector<double>(walls, 0)};
+}
+
+}  // namespace
 
 /// The root's walls and stages become everybody's.
 void Simulation::take_over_walls_and_stages(const SimulationState& state) {
@@ -54,6 +66,7 @@ void Simulation::begin_next_stage() {
   if (membrane() != nullptr) membrane_->begin_stage(membrane_pressure());
   stage_starts_.push_back(step_);
   for (DrivenWall& wall : driven_walls_) wall.displacement_at_stage_start = wall.displacement;
+  if (cell_) begin_stage_of_cell();
   apply_stage();
   // Turning gravity lifts or drops every grain's potential: someone's work.
   const Vec3 turned = setup_.body_force.gravity - gravity_before;
@@ -69,11 +82,13 @@ void Simulation::begin_next_stage() {
 
 std::optional<Enclosure> Simulation::space() const {
   if (membrane() != nullptr) return membrane_->enclosure(setup_.walls.size());
+  if (cell_) return inside(*cell_, cell_->edges(), setup_.walls.size());
   return enclosure_of(setup_.walls, wall_contacts_.poses());
 }
 
 std::optional<Enclosure> Simulation::space_at_stage_start() const {
   if (membrane() != nullptr) return membrane_->enclosure_at_stage_start(setup_.walls.size());
+  if (cell_) return inside(*cell_, cell_state_.edges_at_stage_start, setup_.walls.size());
   std::vector<DrivenWall> then = driven_walls_;
   for (DrivenWall& wall : then) wall = {wall.displacement_at_stage_start, {}, {}};
   const std::uint64_t start = stage_starts_.empty() ? 0 : stage_starts_.back();
