@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // One simulation on all ranks of this mpirun against the same on one rank, bit by bit:
-//   ranks_test DECOMPOSITION STEPS THREADS SIMD [pressed|membrane]
+//   ranks_test DECOMPOSITION STEPS THREADS SIMD [pressed|membrane|cell]
 // The one rank tests every node of every pair at every step. Where the machine lacks the
 // instructions that SIMD names, its widest are taken. The scene is a box of grains of two sizes,
 // thrown down, shaken and sheared by moving walls; `pressed` closes the box and drives its walls by
 // stress and strain rate, in two stages; `membrane` presses grains in a cylinder, and then takes it
-// for a membrane. It is stopped half-way and goes on from its state, as a
-// restart does.
+// for a membrane; `cell` has no walls but a periodic cell, pressed and then sheared. It is stopped
+// half-way and goes on from its state, as a restart does.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -101,6 +101,42 @@ SimulationSetup wrapped_cylinder(std::shared_ptr<const ShapeLibrary> shapes) {
   return setup;
 }
 
+/// A periodic cell: pressed along all axes, then sheared until it leans by more than an edge.
+SimulationSetup sheared_cell(std::shared_ptr<const ShapeLibrary> shapes) {
+  SimulationSetup setup = shaken_box(std::move(shapes));
+  setup.walls.clear();
+  setup.body_force.gravity = {};
+  setup.cell = CellSetup{.center = {2, -1, 5}, .size = {9.2, 11.5, 9.2}};
+  setup.skin = 0.05;
+  setup.stages = {{.name = "press", .friction = 0.2, .damping = 1},
+                  {.name = "shear", .friction = 0.4, .damping = 1}};
+  for (const CellAxis axis : {CellAxis::x, CellAxis::y, CellAxis::z}) {
+    setup.stages[0].cell_controls.push_back({.axis = axis, .value = 2e4, .rate_limit = 2});
+  }
+  setup.stages[1].cell_controls = {
+      {.axis = CellAxis::y, .value = 2e4, .rate_limit = 2},
+      {.axis = CellAxis::xy, .target = WallTarget::strain_rate, .value = 3},
+      {.axis = CellAxis::xz, .target = WallTarget::strain_rate, .value = -0.5},
+      {.axis = CellAxis::yz, .target = WallTarget::strain_rate, .value = 0.4}};
+  return setup;
+}
+
+/// Through the cell of `sheared_cell` and, by whole edges, far out of it.
+SimulationState grains_in_cell() {
+  SimulationState state;
+  for (std::uint32_t n = 0; n < 80; ++n) {
+    GrainState grain;
+    grain.id = GrainId{n};
+    grain.shape = ShapeId{n % 2};
+    grain.position = 2.3 * Vec3{n % 4 + 0.0, n / 4 % 5 + 0.0, std::floor(n / 20.0)};
+    grain.position.x += 9.2 * (n % 7);
+    grain.velocity = {0.3 * (n % 5) - 0.6, 0.4 * (n % 4) - 0.6, 0.5 * (n % 3) - 0.5};
+    grain.angular_velocity_body = {0.1 * n, 2, -3};
+    state.grains.push_back(grain);
+  }
+  return state;
+}
+
 SimulationState thrown_grains(const ShapeLibrary& shapes, bool in_cylinder) {
   FillPlacement fill;
   fill.count = 60;
@@ -183,17 +219,22 @@ int test(const Communicator& world, const std::string& decomposition, int steps,
   const auto shapes =
       testing::library_of({testing::bumpy_grain(1.0, 200, 16), testing::bumpy_grain(0.7, 150, 16)});
   const bool wrapped = scene == "membrane";
-  const auto make = wrapped ? wrapped_cylinder : scene == "pressed" ? pressed_box : shaken_box;
+  const auto make = wrapped              ? wrapped_cylinder
+                    : scene == "pressed" ? pressed_box
+                    : scene == "cell"    ? sheared_cell
+                                         : shaken_box;
+  const SimulationState start =
+      scene == "cell" ? grains_in_cell() : thrown_grains(*shapes, wrapped);
   SimulationSetup setup = make(shapes);
   setup.decomposition = decomposition_named(decomposition);
   setup.simd = simd_named(simd);
-  const Outcome found = run(setup, thrown_grains(*shapes, wrapped), world, steps);
+  const Outcome found = run(setup, start, world, steps);
   std::int64_t migrated = static_cast<std::int64_t>(found.migrated);
   world.sum({&migrated, 1});
   if (!world.is_root()) return 0;
   setup = make(shapes);
   setup.engine = ContactEngine::plain;
-  const Outcome expected = run(setup, thrown_grains(*shapes, wrapped), {}, steps);
+  const Outcome expected = run(setup, start, {}, steps);
   int failures = compare(found, expected);
   if (wrapped && expected.state.membrane.springs.size() < 50) {
     std::printf("too few nodes of the membrane touch to tell\n");
