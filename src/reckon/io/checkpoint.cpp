@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "reckon/core/error.hpp"
@@ -14,8 +16,8 @@
 namespace reckon {
 namespace {
 
-// 2 added departed grains, 3 driven walls and stages, 4 the membrane.
-const Hdf5Kind kind{"checkpoint", 4};
+// 2 added departed grains, 3 driven walls and stages, 4 the membrane, 5 the cell.
+const Hdf5Kind kind{"checkpoint", 5};
 
 /// How the parts of the state lie in columns. The same walk fills columns from the state, and the
 /// state from columns: `Columns` offers number, vector, quaternion, id and flag.
@@ -49,6 +51,32 @@ void walk_wall(Columns& columns, Wall& wall) {
   columns.vector("displacement", "m", wall.displacement);
   columns.vector("velocity", "m/s", wall.velocity);
   columns.vector("displacement_at_stage_start", "m", wall.displacement_at_stage_start);
+}
+
+/// Edges and rates as their diagonal and what is above it.
+template <class Columns, class Matrix>
+void walk_upper(Columns& columns, const char* diagonal, const char* above, const char* unit,
+                Matrix& m) {
+  columns.vector(diagonal, unit, m.diagonal);
+  Vec3 rest{m.xy, m.xz, m.yz};
+  columns.vector(above, unit, rest);
+  if constexpr (!std::is_const_v<Matrix>) {
+    m.xy = rest.x;
+    m.xz = rest.y;
+    m.yz = rest.z;
+  }
+}
+
+/// One row where there is a cell, else none.
+template <class Columns, class Cell>
+void walk_cell(Columns& columns, Cell& cell) {
+  walk_upper(columns, "edges", "lean", "m", cell.edges);
+  walk_upper(columns, "edge_rates", "lean_rates", "m/s", cell.rates);
+  walk_upper(columns, "edges_at_stage_start", "lean_at_stage_start", "m",
+             cell.edges_at_stage_start);
+  columns.vector("shear", "1", cell.shear);
+  columns.vector("shear_at_stage_start", "1", cell.shear_at_stage_start);
+  columns.number("work", "J", cell.work);
 }
 
 /// One row where the membrane is in place, else none.
@@ -267,6 +295,22 @@ void read_contacts(const Hdf5Reader& file, const std::string& table, std::uint64
   }
 }
 
+void read_cell(const Hdf5Reader& file, std::optional<CellState>& cell) {
+  const std::uint64_t rows = rows_of(file, "/cell/edges");
+  if (rows == 0) return;
+  if (rows > 1) refuse(file, "it has more than one cell");
+  cell.emplace();
+  Extractor from{"/cell/", rows, file};
+  from.begin_row(0);
+  walk_cell(from, *cell);
+  for (const UpperMat3* edges : {&cell->edges, &cell->edges_at_stage_start}) {
+    const Vec3& lengths = edges->diagonal;
+    if (!is_finite(lengths) || !(std::min({lengths.x, lengths.y, lengths.z}) > 0)) {
+      refuse(file, "its cell has an edge without length");
+    }
+  }
+}
+
 void read_membrane(const Hdf5Reader& file, MembraneState& membrane) {
   membrane.nodes.resize(rows_of(file, "/membrane_node/position"));
   const std::uint64_t rows = rows_of(file, "/membrane/radius");
@@ -321,6 +365,9 @@ std::vector<CheckpointColumn> to_columns(const SimulationState& state) {
               [&](Appender& to, std::size_t row) {
                 walk_membrane_spring(to, row_or_blank(membrane.springs, row, MembraneSpring{}));
               });
+  const CellState cell = state.cell.value_or(CellState{});
+  append_rows("/cell/", state.cell ? 1 : 0, columns,
+              [&](Appender& to, std::size_t) { walk_cell(to, cell); });
   const PairSprings no_pair;
   append_rows("/pair/", state.pair_springs.size(), columns, [&](Appender& to, std::size_t row) {
     const PairSprings& pair = row_or_blank(state.pair_springs, row, no_pair);
@@ -413,6 +460,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
     }
   }
   if (file.version() >= 4) read_membrane(file, state.membrane);
+  if (file.version() >= 5) read_cell(file, state.cell);
   const std::uint64_t pairs = rows_of(file, "/pair/id_a");
   const auto id_a = file.read<std::uint32_t>("/pair/id_a", {pairs});
   const auto id_b = file.read<std::uint32_t>("/pair/id_b", {pairs});

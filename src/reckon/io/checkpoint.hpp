@@ -43,6 +43,7 @@ struct CheckpointColumn {
 ///   /driven_wall/{displacement, ...}       one row per wall of the scene
 ///   /stage/start                           the step at which each stage so far began
 ///   /membrane/{foot, ...}, /membrane_node/{position, ...}, /membrane_spring/{node, grain, ...}
+///   /cell/{edges, lean, ...}               one row where there is a periodic cell
 ///   /pair/{id_a, id_b, first_spring}        one row per touching pair; its springs begin there
 ///   /pair_spring/{node, master_is_b, shear_force, normal}
 ///   /wall_contact/{grain, wall, first_spring}, /wall_spring/{...}  the same for walls

@@ -18,23 +18,29 @@ void describe(Visitor& v, ControlConfig& control) {
           .required = true,
           .meaning = "Which planes it moves: the name of a plane, one side of a box "
                      "(`\"box.z+\"`), two that face each other and move alike (`\"box.z\"`), or "
-                     "all six as three such pairs (`\"box\"`)."},
+                     "all six as three such pairs (`\"box\"`). Or a part of the periodic cell: an "
+                     "edge (`\"cell.x\"`), all three (`\"cell\"`), or simple shear (`\"cell.xy\"`, "
+                     "`\"cell.xz\"`, `\"cell.yz\"`: planes across the second axis slide along the "
+                     "first), which takes a `strain_rate`."},
          control.wall);
   v.one_of(
       Presence::exactly_one, {"stress", "strain_rate", "speed"},
       static_cast<std::size_t>(control.target), [&](std::size_t which) {
         control.target = static_cast<WallTarget>(which);
         if (which == 0) {
-          v.number({.name = "stress",
-                    .unit = "Pa",
-                    .range = at_least(0),
-                    .meaning = "A servo holds the mean normal stress on the planes at this."},
-                   control.value);
+          v.number(
+              {.name = "stress",
+               .unit = "Pa",
+               .range = at_least(0),
+               .meaning = "A servo holds the mean normal stress on the planes, or in the cell by "
+                          "all its contacts, at this."},
+              control.value);
         } else if (which == 1) {
           v.number({.name = "strain_rate",
                     .unit = "1/s",
-                    .meaning = "The space between the walls shortens along the planes' normal "
-                               "at this rate, -d(ln L)/dt."},
+                    .meaning = "The space between the walls, or the cell, shortens along the "
+                               "planes' normal at this rate, -d(ln L)/dt; of shear, the velocity's "
+                               "gradient, which may be negative."},
                    control.value);
         } else {
           v.number(
@@ -81,7 +87,8 @@ void describe(Visitor& v, StageGoal& goal) {
             .standard = "not asked",
             .meaning = "The space has become shorter or longer by this logarithmic strain since "
                        "the stage began: along the planes that are moved by `strain_rate` or "
-                       "`speed`, or, where none are, along some axis."},
+                       "`speed`, or, where none are, along some axis. Of a cell that is sheared, "
+                       "its shear strain."},
            goal.strain);
   v.number({.name = "stress_above",
             .unit = "Pa",

@@ -14,6 +14,14 @@
 
 namespace reckon {
 
+void put_into(const PeriodicCell& cell, std::span<GrainState> grains) {
+  for (GrainState& grain : grains) {
+    const Vec3 edges = cell.nearest_image(grain.position - cell.center());
+    grain.position -= cell.shift_of(edges);
+    grain.velocity -= cell.velocity_of(edges);
+  }
+}
+
 void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& fields,
                         std::span<const ShapeSummary> shapes, double density) {
   std::vector<std::uint32_t> id;

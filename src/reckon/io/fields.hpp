@@ -50,6 +50,9 @@ void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& f
 void write_contact_lines(const std::filesystem::path& path, std::span<const ContactRecord> contacts,
                          double time);
 
+/// Takes the image of each grain that is in the cell, as it moves there.
+void put_into(const PeriodicCell& cell, std::span<GrainState> grains);
+
 /// Writes the membrane's triangles, with `displacement`, `velocity` and `contact_force` per node.
 void write_membrane(const std::filesystem::path& path, const MembraneAtStep& membrane, double time);
 

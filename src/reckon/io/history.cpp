@@ -85,7 +85,9 @@ std::string tensor_cells(const Mat3& tensor) {
 }
 
 void add_sample_columns(std::vector<HistoryColumn>& columns) {
-  columns.push_back({"volume_m3", "of the space that the walls close off; 0 where it is open"});
+  columns.push_back(
+      {"volume_m3",
+       "of the space that the walls close off, or of the periodic cell; 0 where it is open"});
   add_vector(columns, "size", "_m", "edges of its bounding box");
   columns.push_back({"void_ratio", "volume that is not solid over volume that is"});
   add_vector(columns, "strain", "",
@@ -109,6 +111,26 @@ void add_sample_columns(std::vector<HistoryColumn>& columns) {
   columns.push_back({"mean_force_N", "mean contact force between grains"});
   columns.push_back({"force_variation", "standard deviation of the contact force over its mean"});
   columns.push_back({"largest_force", "largest contact force over the mean"});
+}
+
+void add_cell_columns(std::vector<HistoryColumn>& columns) {
+  add_vector(columns, "cell_edge", "_m", "edges of the periodic cell along the axes");
+  for (const char* axes : {"xy", "xz", "yz"}) {
+    columns.push_back({fmt::format("cell_lean_{}_m", axes),
+                       "how far the edge along the second axis leans along the first"});
+  }
+  for (const char* axes : {"xy", "xz", "yz"}) {
+    columns.push_back({fmt::format("cell_shear_{}", axes),
+                       "shear strain since the stage began, along the first axis across the "
+                       "second"});
+  }
+}
+
+std::string cell_cells(const CellState& cell) {
+  const UpperMat3& edges = cell.edges;
+  const Vec3 shear = cell.shear - cell.shear_at_stage_start;
+  return fmt::format(",{},{},{},{},{},{},{},{},{}", edges.diagonal.x, edges.diagonal.y,
+                     edges.diagonal.z, edges.xy, edges.xz, edges.yz, shear.x, shear.y, shear.z);
 }
 
 std::string sample_cells(const SampleMeasurement& s) {
@@ -137,7 +159,9 @@ std::vector<HistoryColumn> history_columns(const HistoryLayout& layout) {
       {"dashpot_J", "energy lost to contact dashpots since the start"},
       {"damping_J", "energy lost to global damping since the start"},
       {"body_work_J", "work of body forces other than gravity since the start"},
-      {"wall_work_J", "work of moving walls and of grains with prescribed motion since the start"},
+      {"wall_work_J",
+       "work of moving walls, of the periodic cell and of grains with prescribed motion since the "
+       "start"},
       {"departed_J", "energy that grains took along which left through an outflow"},
       {"balance_error_J",
        "stored plus lost energy minus work done, less what it was at the start: the error of time "
@@ -167,6 +191,7 @@ std::vector<HistoryColumn> history_columns(const HistoryLayout& layout) {
                        "`elastic_J` holds too"});
     columns.push_back({"membrane_nodes", "nodes of the membrane that touch a grain"});
   }
+  if (layout.cell) add_cell_columns(columns);
   if (layout.stages) columns.push_back({"stage", "the stage under way, counted from 1"});
   if (layout.sample) add_sample_columns(columns);
   return columns;
@@ -182,13 +207,18 @@ std::string history_reference_markdown() {
       "      + departed - body_work - wall_work = constant + balance_error\n\n"
       "Columns `membrane_...` are there where the scene has a membrane, whose contacts, energies "
       "and "
-      "work of pressure the other columns include. Column `stage` is there where the scene has "
+      "work of pressure the other columns include. Columns `cell_...` are there where the scene "
+      "has a "
+      "periodic cell; then speeds, momentum and kinetic energies are those of motion against the "
+      "cell's own, and there are no forces on walls to make `wall_stress_...` of. Column `stage` "
+      "is there where the scene has "
       "stages; `volume_m3` and what follows where "
       "`output.sample` is true. The row at the last step of a stage belongs to that stage.\n\n"
       "This page is made by `reckon reference history`.\n\n"
       "| column | meaning |\n|---|---|\n";
   const Wall example{.name = "WALL", .surface = PlaneSurface{}, .law = LinearLaw{}};
-  for (const HistoryColumn& column : history_columns({std::span{&example, 1}, true, true, true})) {
+  for (const HistoryColumn& column :
+       history_columns({std::span{&example, 1}, true, true, true, true})) {
     page += fmt::format("| `{}` | {} |\n", column.name, column.meaning);
   }
   return page;
@@ -209,6 +239,7 @@ std::string history_row(const HistoryRow& told) {
   if (told.membrane) {
     row += fmt::format(",{},{},{}", m.membrane_pressure, m.membrane_stretch, m.membrane_nodes);
   }
+  if (told.cell != nullptr) row += cell_cells(*told.cell);
   if (told.stage) row += fmt::format(",{}", *told.stage);
   if (told.sample != nullptr) row += sample_cells(*told.sample);
   return row;

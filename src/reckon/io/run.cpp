@@ -223,9 +223,13 @@ class Session {
     progress_.kinetic_energy = last_.energy.translation + last_.energy.rotation;
   }
 
-  [[nodiscard]] HistoryRow row() const {
+  [[nodiscard]] HistoryRow row() {
     HistoryRow row{.measurement = last_};
     row.membrane = config_.membrane.has_value();
+    if (simulation_.cell() != nullptr) {
+      cell_ = simulation_.cell_state();
+      row.cell = &cell_;
+    }
     if (has_stages()) row.stage = stage_index() + 1;
     if (config_.output.sample) row.sample = &sample_;
     return row;
@@ -241,6 +245,7 @@ class Session {
     fields.time = simulation_.time();
     fields.contacts = simulation_.contacts();
     fields.grains = simulation_.grain_states();
+    if (const PeriodicCell* cell = simulation_.cell()) put_into(*cell, fields.grains);
     for (const WallPose& pose : simulation_.wall_contacts().poses()) {
       fields.wall_displacement.push_back(pose.displacement);
     }
@@ -308,6 +313,7 @@ class Session {
   RunProgress progress_;
   Measurement last_;
   SampleMeasurement sample_;
+  CellState cell_;  // of the last row
   bool measured_{false};
   std::optional<std::uint64_t> last_checkpoint_;  // its step
   Clock::time_point start_{Clock::now()};

@@ -59,6 +59,14 @@ void describe_assembly(const LoadedScene& scene, const PreparedScene& prepared, 
       plan.membrane_areal_mass = membrane->areal_mass;
     }
   }
+  if (const auto& cell = prepared.setup.cell) {
+    plan.cell_size = cell->size;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (cell->periodic[axis]) plan.cell_axes += "xyz"[axis];
+    }
+    plan.cell_solid_fraction = plan.solid_mass / scene.config.material.density /
+                               (cell->size.x * cell->size.y * cell->size.z);
+  }
   plan.bin_edge = plan.largest_diameter + prepared.setup.skin;
   std::set<std::array<double, 3>> bins;
   for (const GrainState& grain : scene.grains) {
@@ -197,6 +205,12 @@ std::string plan_text(const RunPlan& plan) {
                             plan.largest_diameter));
   line("nodes", fmt::format("{} on all grains", human_count(plan.nodes)));
   line("walls", fmt::format("{}", plan.walls));
+  if (plan.cell_size) {
+    line("cell", fmt::format("periodic along {}, {:.4g} x {:.4g} x {:.4g} m, {:.1f} % "
+                             "solid",
+                             plan.cell_axes, plan.cell_size->x, plan.cell_size->y,
+                             plan.cell_size->z, 100 * plan.cell_solid_fraction));
+  }
   if (plan.membrane_nodes > 0) {
     line("membrane",
          fmt::format("{} nodes where its mould is now; {:.3g} kg/m^2, for the time step",
@@ -256,6 +270,12 @@ std::string plan_json(const RunPlan& plan) {
   json.value("shapes_in_use", plan.shapes_in_use);
   json.value("nodes", plan.nodes);
   json.value("walls", plan.walls);
+  if (plan.cell_size) {
+    json.value("cell_periodic", plan.cell_axes);
+    json.value("cell_size_x_m", plan.cell_size->x);
+    json.value("cell_size_y_m", plan.cell_size->y);
+    json.value("cell_size_z_m", plan.cell_size->z);
+  }
   json.value("smallest_diameter_m", plan.smallest_diameter);
   json.value("largest_diameter_m", plan.largest_diameter);
   json.value("solid_mass_kg", plan.solid_mass);

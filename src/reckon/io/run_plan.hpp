@@ -25,6 +25,9 @@ struct RunPlan {
   double density_scaling{1};    ///< see MaterialConfig
 
   std::uint64_t membrane_nodes{0};  ///< as its mould stands at the start
+  std::optional<Vec3> cell_size;    ///< of a periodic cell [m]
+  std::string cell_axes;            ///< along which it is periodic, e.g. "xyz"
+  double cell_solid_fraction{0};    ///< volume of grains over that of the cell
   double membrane_areal_mass{0};    ///< that the time step asks for [kg/m^2]
 
   double bin_edge{0};  ///< [m]

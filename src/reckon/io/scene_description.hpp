@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "reckon/io/describe_cell.hpp"
 #include "reckon/io/describe_grains.hpp"
 #include "reckon/io/describe_stages.hpp"
 #include "reckon/io/describe_walls.hpp"
@@ -305,6 +306,11 @@ void describe(Visitor& v, SceneConfig& scene) {
                     .meaning = "A flexible sheet around a cylindrical sample, under pressure from "
                                "outside."},
                    scene.membrane, [&](MembraneConfig& membrane) { describe(v, membrane); });
+  v.optional_table({.name = "cell",
+                    .standard = "none",
+                    .meaning = "A periodic cell: what leaves it on one side comes in on the other. "
+                               "A stage's controls deform it."},
+                   scene.cell, [&](CellConfig& cell) { describe(v, cell); });
   v.tables({.name = "outflow",
             .standard = "grains stay",
             .meaning = "Grains whose centre gets beyond it are taken out of the simulation; "

@@ -13,19 +13,28 @@
 namespace reckon {
 
 StageCheck::StageCheck(const LoadedScene& scene, Fault fault)
-    : scene_{scene.config},
+    : loaded_{scene},
+      scene_{scene.config},
       fault_{std::move(fault)},
       walls_{make_walls(scene.config)},
-      closed_{enclosure_of(walls_, poses_at(walls_, {}, 0, 1)).has_value()} {}
+      closed_{scene_.cell ? scene_.cell->periodic == PeriodicAxes::xyz
+                          : enclosure_of(walls_, poses_at(walls_, {}, 0, 1)).has_value()} {}
 
 void StageCheck::run() {
   check_membrane();
+  if (scene_.cell) check_cell(loaded_);
   for (std::size_t n = 0; n < scene_.stages.size(); ++n) {
     const StageConfig& stage = scene_.stages[n];
     const std::string key = fmt::format("stage[{}]", n);
     std::vector<bool> controlled(walls_.size(), false);
+    std::vector<bool> driven(6, false);  // parts of the cell
     for (std::size_t c = 0; c < stage.controls.size(); ++c) {
-      check_control(stage.controls[c], fmt::format("{}.control[{}]", key, c), controlled);
+      const std::string control = fmt::format("{}.control[{}]", key, c);
+      if (scene_.cell && !cell_axes_named(stage.controls[c].wall).empty()) {
+        check_cell_control(stage.controls[c], control, driven);
+      } else {
+        check_control(stage.controls[c], control, controlled);
+      }
     }
     check_goal(stage, key);
   }
@@ -134,6 +143,7 @@ std::string StageCheck::known_planes() const {
     if (!std::holds_alternative<PlaneSurface>(wall.surface)) continue;
     names += (names.empty() ? "" : ", ") + wall.name;
   }
+  if (scene_.cell) names += (names.empty() ? "" : ", ") + std::string{"cell, cell.x, cell.xy, ..."};
   return names.empty() ? "The scene has no planes." : fmt::format("There are: {}.", names);
 }
 

@@ -10,8 +10,8 @@
 
 namespace reckon {
 
-/// What can be wrong with stages once the walls are known: controls of planes that are not there,
-/// stresses in a space that is open.
+/// What can be wrong with stages, membrane and cell once walls and shapes are known: controls of
+/// planes that are not there, stresses in a space that is open, a cell that is too narrow.
 class StageCheck {
  public:
   /// Key, problem, fix.
@@ -25,9 +25,15 @@ class StageCheck {
   void check_control(const ControlConfig& control, const std::string& key,
                      std::vector<bool>& controlled);
   void check_membrane();
+  void check_cell(const LoadedScene& scene);
+  void check_walls_in_cell();
+  void check_room_in_cell(const LoadedScene& scene);
+  void check_cell_control(const ControlConfig& control, const std::string& key,
+                          std::vector<bool>& driven);
   void check_goal(const StageConfig& stage, const std::string& key);
   [[nodiscard]] std::string known_planes() const;
 
+  const LoadedScene& loaded_;
   const SceneConfig& scene_;
   Fault fault_;
   std::vector<Wall> walls_;

@@ -44,7 +44,8 @@ class Columns {
 constexpr std::array axes{"x", "y", "z"};
 constexpr std::array tensor{"xx", "yy", "zz", "xy", "yz", "zx"};
 
-/// The axis that the sample has been compressed along most.
+/// The strain along the axis that the sample has been compressed along most, or a cell's shear if
+/// that is larger.
 std::string axial(const Columns& columns, std::size_t last_row) {
   std::size_t most = 0;
   const auto strain = [&](std::size_t axis) {
@@ -52,6 +53,10 @@ std::string axial(const Columns& columns, std::size_t last_row) {
   };
   for (std::size_t axis = 1; axis < 3; ++axis) {
     if (strain(axis) > strain(most)) most = axis;
+  }
+  for (const char* shear : {"cell_shear_xy", "cell_shear_xz", "cell_shear_yz"}) {
+    if (!columns.has(shear)) break;
+    if (std::abs(columns.at(last_row, shear)) > strain(most)) return shear;
   }
   return fmt::format("strain_{}", axes[most]);
 }
@@ -81,7 +86,7 @@ std::string paragraph(const std::string& name, bool free_volume, const Columns& 
   std::vector<double> inertial_numbers;
   std::vector<double> disagreements;
   for (const std::size_t row : rows) {
-    curve.push_back({columns.at(row, strain), columns.at(row, "volumetric_strain"),
+    curve.push_back({std::abs(columns.at(row, strain)), columns.at(row, "volumetric_strain"),
                      columns.at(row, "friction_angle_deg")});
     inertial_numbers.push_back(columns.at(row, "inertial_number"));
     disagreements.push_back(disagreement(columns, row));
@@ -98,10 +103,12 @@ std::string paragraph(const std::string& name, bool free_volume, const Columns& 
                       100 * curve.back().axial_strain, summary->final_friction_angle,
                       dilatancy(", dilatancy angle ", summary->final_dilatancy_angle),
                       columns.at(rows.back(), "void_ratio"));
-  text += fmt::format(
-      "    stress by contacts and by walls: {:.2g} % apart in the median row, {:.2g} % at most\n",
-      100 * median(disagreements),
-      100 * *std::max_element(disagreements.begin(), disagreements.end()));
+  if (!columns.has("cell_edge_x_m")) {
+    text += fmt::format(
+        "    stress by contacts and by walls: {:.2g} % apart in the median row, {:.2g} % at most\n",
+        100 * median(disagreements),
+        100 * *std::max_element(disagreements.begin(), disagreements.end()));
+  }
   const double inertial_number = median(inertial_numbers);
   text += fmt::format(
       "    inertial number {:.1g}{}\n", inertial_number,

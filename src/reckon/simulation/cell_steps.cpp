@@ -144,6 +144,8 @@ double Simulation::work_of_cell_on(std::size_t slot, const Vec3& alone, const Ve
 
 void Simulation::move_cell() {
   cell_ = next_cell_;
+  cell_state_.edges = cell_->edges();
+  cell_state_.rates = cell_->rates();
   cell_state_.shear +=
       setup_.time_step * Vec3{cell_gradient_.xy, cell_gradient_.xz, cell_gradient_.yz};
   cell_since_evaluation_ = cell_step_ * cell_since_evaluation_;

@@ -101,6 +101,14 @@ struct MembraneConfig {
   std::optional<double> damping;  ///< of its nodes [1/s]; default: a hundredth per time step
 };
 
+/// Along which axes a periodic cell repeats itself.
+enum class PeriodicAxes { xyz, xy, xz, yz, x, y, z };
+/// A cell of space that repeats itself; see grains/periodic_cell.hpp.
+struct CellConfig {
+  BoxConfig box;
+  PeriodicAxes periodic{PeriodicAxes::xyz};
+};
+
 /// Where grains leave the simulation: behind a plane, or outside a box.
 struct OutflowConfig {
   std::variant<PlaneConfig, BoxConfig> geometry;
@@ -149,9 +157,9 @@ struct TimeConfig {
   std::optional<double> stop_at_unbalanced_ratio;  ///< ends the run early when at rest
 };
 
-/// What moves planes during a stage; see WallControl.
+/// What moves planes or a cell during a stage; see WallControl and CellControl.
 struct ControlConfig {
-  std::string wall;  ///< a plane, a side of a box, or a pair of sides
+  std::string wall;  ///< a plane, a side of a box, a pair of sides, or a part of the cell
   WallTarget target{WallTarget::stress};
   double value{0};                   ///< [Pa], [1/s] or [m/s]
   double gain{0.3};                  ///< stress: of the servo, in (0, 1)
@@ -219,6 +227,7 @@ struct SceneConfig {
   BodyForceConfig body;
   std::vector<WallConfig> walls;
   std::optional<MembraneConfig> membrane;
+  std::optional<CellConfig> cell;
   std::vector<OutflowConfig> outflows;
   std::vector<GrainsConfig> grains;
   std::vector<StageConfig> stages;

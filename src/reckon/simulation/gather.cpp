@@ -115,11 +115,7 @@ SimulationState Simulation::state() {
     state.driven_walls = driven_walls_;
     state.stage_starts = stage_starts_;
     if (membrane() != nullptr) state.membrane = membrane_->state();
-    if (cell_) {
-      state.cell = cell_state_;
-      state.cell->edges = cell_->edges();
-      state.cell->rates = cell_->rates();
-    }
+    if (cell_) state.cell = cell_state_;
   }
   std::sort(state.departed.begin(), state.departed.end(),
             [](const DepartedGrain& a, const DepartedGrain& b) { return a.grain.id < b.grain.id; });

@@ -100,6 +100,26 @@ std::vector<Wall> make_walls(const SceneConfig& scene) {
   return walls;
 }
 
+std::array<bool, 3> periodic_axes(const CellConfig& cell) {
+  switch (cell.periodic) {
+    case PeriodicAxes::xyz:
+      return {true, true, true};
+    case PeriodicAxes::xy:
+      return {true, true, false};
+    case PeriodicAxes::xz:
+      return {true, false, true};
+    case PeriodicAxes::yz:
+      return {false, true, true};
+    case PeriodicAxes::x:
+      return {true, false, false};
+    case PeriodicAxes::y:
+      return {false, true, false};
+    case PeriodicAxes::z:
+      return {false, false, true};
+  }
+  return {};
+}
+
 std::vector<PlaneSurface> outflow_planes(const SceneConfig& scene) {
   std::vector<PlaneSurface> planes;
   for (const OutflowConfig& outflow : scene.outflows) {
@@ -135,6 +155,7 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
                   config.material.friction, config.contact.master},
       .walls = make_walls(config),
       .membrane = {},
+      .cell = {},
       .outflows = outflow_planes(config),
       .body_force = {config.body.gravity / config.material.density_scaling,
                      config.body.random_acceleration, config.body.random_interval, config.seed,
@@ -148,6 +169,12 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
       .decomposition = config.parallel.decomposition,
   };
   prepared.setup.membrane = make_membrane(config, prepared.setup.walls, prepared.time_step.step);
+  if (config.cell) {
+    const BoxConfig& box = config.cell->box;
+    prepared.setup.cell = CellSetup{.center = 0.5 * (box.low + box.high),
+                                    .periodic = periodic_axes(*config.cell),
+                                    .size = box.high - box.low};
+  }
   prepared.setup.stages = make_stages(config, prepared.setup.walls);
   prepared.initial.grains = scene.grains;
   prepared.steps = config.time.steps.value_or(static_cast<std::uint64_t>(

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -36,6 +37,9 @@ struct PreparedScene {
 
 /// The walls of a scene; boxes are six of them, or five.
 [[nodiscard]] std::vector<Wall> make_walls(const SceneConfig& scene);
+
+/// By axis.
+[[nodiscard]] std::array<bool, 3> periodic_axes(const CellConfig& cell);
 
 /// The membrane of a scene whose mould is one of the walls. Its mass, and what the scene leaves
 /// open of its stiffness and damping, follow from the time step.

@@ -247,9 +247,9 @@ class Simulation {
   MembraneContacts membrane_contacts_;
   std::vector<DepartedGrain> departed_;  // on this rank
   std::uint64_t step_{0};
-  std::vector<DrivenWall> driven_walls_;   // the same on all ranks
-  std::optional<PeriodicCell> cell_;       // the same on all ranks
-  CellState cell_state_;                   // but edges and rates, which cell_ has
+  std::vector<DrivenWall> driven_walls_;  // the same on all ranks
+  std::optional<PeriodicCell> cell_;      // the same on all ranks
+  CellState cell_state_;
   std::optional<PeriodicCell> next_cell_;  // a step on
   UpperMat3 cell_gradient_;                // of its velocity over the step to come [1/s]
   UpperMat3 cell_step_;                    // deformation over the step to come

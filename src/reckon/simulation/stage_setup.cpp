@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/simulation/stage_setup.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -36,6 +38,14 @@ std::vector<std::vector<WallId>> planes_named(std::span<const Wall> walls, std::
   }
   if (box.size() != 3) box.clear();
   return box;
+}
+
+std::vector<CellAxis> cell_axes_named(std::string_view name) {
+  if (name == "cell") return {CellAxis::x, CellAxis::y, CellAxis::z};
+  constexpr std::array names{"cell.x", "cell.y", "cell.z", "cell.xy", "cell.xz", "cell.yz"};
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return {};
+  return {static_cast<CellAxis>(found - names.begin())};
 }
 
 double mean_diameter(std::span<const GrainState> grains, std::span<const ShapeSummary> shapes) {
@@ -85,6 +95,14 @@ std::vector<StageSetup> make_stages(const SceneConfig& scene, std::span<const Wa
       stage.wall_friction.push_back(config.wall_friction.value_or(wall.friction));
     }
     for (const ControlConfig& control : config.controls) {
+      for (const CellAxis axis : cell_axes_named(scene.cell ? control.wall : "")) {
+        stage.cell_controls.push_back({.name = control.wall,
+                                       .axis = axis,
+                                       .target = control.target,
+                                       .value = control.value,
+                                       .gain = control.gain,
+                                       .rate_limit = control.rate_limit.value_or(0)});
+      }
       for (auto& planes : planes_named(walls, control.wall)) {
         stage.controls.push_back({.name = control.wall,
                                   .walls = std::move(planes),

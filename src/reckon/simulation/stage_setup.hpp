@@ -18,6 +18,10 @@ namespace reckon {
 [[nodiscard]] std::vector<std::vector<WallId>> planes_named(std::span<const Wall> walls,
                                                             std::string_view name);
 
+/// What of a periodic cell a control's `wall` names: "cell.x" ... "cell.yz" one component, "cell"
+/// all three edges. None when it does not name a part of the cell.
+[[nodiscard]] std::vector<CellAxis> cell_axes_named(std::string_view name);
+
 /// The volume-weighted mean diameter of spheres as large as the grains [m].
 [[nodiscard]] double mean_diameter(std::span<const GrainState> grains,
                                    std::span<const ShapeSummary> shapes);
@@ -34,7 +38,7 @@ constexpr double servo_inertial_number = 0.01;
 void resolve_rate_limits(SceneConfig& scene, std::span<const GrainState> grains,
                          std::span<const ShapeSummary> shapes);
 
-/// The stages of a scene whose controls all name planes.
+/// The stages of a scene whose controls all name planes or parts of the cell.
 [[nodiscard]] std::vector<StageSetup> make_stages(const SceneConfig& scene,
                                                   std::span<const Wall> walls);
 

@@ -60,6 +60,9 @@ Checkpoint awkward_checkpoint() {
                                .pressure_before = number(),
                                .volume_at_stage_start = number(),
                                .height_at_stage_start = number()};
+  const auto upper = [&] { return UpperMat3{vector(), number(), -number(), number()}; };
+  const UpperMat3 edges{{1.0 / 3, 2, 3e300}, number(), number(), -0.0};
+  checkpoint.state.cell = {edges, upper(), edges, vector(), vector(), number()};
   return checkpoint;
 }
 

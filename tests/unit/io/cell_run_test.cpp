@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "reckon/core/vtk_reader.hpp"
+#include "reckon/io/history.hpp"
+#include "unit/io/run_scene_fixture.hpp"
+
+namespace reckon {
+namespace {
+
+constexpr const char* cell_of_grains = R"(
+[material]
+friction = 0.4
+[contact]
+normal_stiffness = "2e9 N/m^3"
+restitution = 0.5
+[[grains]]
+library = "grains.h5"
+[grains.fill]
+count = 48
+velocity = [0.3, 0.2, -0.1]
+box = { low = [0, 0, 0], high = ["10 mm", "10 mm", "10 mm"] }
+[cell]
+low = [0, 0, 0]
+high = ["10 mm", "10 mm", "10 mm"]
+[time]
+step_fraction = 0.3
+[output]
+history_interval = 25
+fields_interval = 200
+checkpoint_interval = 300
+sample = true
+)";
+constexpr const char* pressing = R"(
+[[stage]]
+name = "press"
+steps = 1300
+friction = 0.1
+damping = 500
+control = [{ wall = "cell", stress = "20 kPa", rate_limit = 200 }]
+)";
+constexpr const char* shearing = R"(
+[[stage]]
+name = "shear"
+steps = 700
+until = { strain = 0.2 }
+control = [{ wall = "cell.y", stress = "20 kPa" }, { wall = "cell.xy", strain_rate = 60 }]
+)";
+
+class CellRunTest : public testing::RunSceneTest {
+ protected:
+  static std::string scene() { return std::string{cell_of_grains} + pressing + shearing; }
+
+  [[nodiscard]] std::vector<std::string> faults_of(const std::string& text) const {
+    SceneReading reading = read_scene_text(text, root_);
+    if (reading.faults.empty()) (void)load_scene(reading);
+    std::vector<std::string> found;
+    for (const SceneFault& fault : reading.faults) {
+      found.push_back(fault.key + ": " + fault.problem);
+    }
+    return found;
+  }
+  static std::string with(std::string text, const std::string& part, const std::string& instead) {
+    text.replace(text.find(part), part.size(), instead);
+    return text;
+  }
+  [[nodiscard]] std::vector<double> column(const std::string& name) const {
+    const HistoryTable table = read_history(root_ / "whole/history.csv");
+    const auto place = std::find(table.header.begin(), table.header.end(), name);
+    std::vector<double> cells;
+    EXPECT_NE(place, table.header.end()) << name;
+    for (const auto& row : table.rows) {
+      cells.push_back(std::stod(row[static_cast<std::size_t>(place - table.header.begin())]));
+    }
+    return cells;
+  }
+};
+
+TEST_F(CellRunTest, BreaksAnywhereLeaveTheSameFiles) {
+  (void)run(scene(), {.folder = root_ / "whole"});
+  for (const std::uint64_t step : {777U, 1300U, 1301U, 1555U}) {
+    const auto folder = root_ / ("broken_at_" + std::to_string(step));
+    EXPECT_EQ(run_until(step, scene(), {.folder = folder}).end, RunEnd::interrupted);
+    EXPECT_EQ(run(scene(), {.folder = folder, .resume = true}).end, RunEnd::complete);
+    expect_equal_folders(folder, root_ / "whole");
+  }
+}
+
+TEST_F(CellRunTest, TellsOfStressStrainAndWork) {
+  const RunReport report = run(scene(), {.folder = root_ / "whole"});
+  EXPECT_LT(std::abs(report.energy_error), 0.02 * report.energy_turnover);
+  EXPECT_NE(report.stages.find("shear: peak friction angle"), std::string::npos) << report.stages;
+  EXPECT_EQ(report.stages.find("by walls"), std::string::npos) << report.stages;
+  const auto stages = column("stage");
+  const auto pressed = static_cast<std::size_t>(std::count(stages.begin(), stages.end(), 1.0)) - 1;
+  const auto at = [&](const char* name, std::size_t row) { return column(name)[row]; };
+  EXPECT_NEAR(at("stress_xx_Pa", pressed), 2e4, 2e3);
+  EXPECT_NEAR(at("stress_zz_Pa", pressed), 2e4, 2e3);
+  const double edge = at("cell_edge_x_m", pressed);
+  EXPECT_LT(edge, 0.0085);
+  EXPECT_NEAR(at("strain_x", pressed), std::log(0.01 / edge), 1e-9);
+  EXPECT_NEAR(at("volume_m3", pressed),
+              edge * at("cell_edge_y_m", pressed) * at("cell_edge_z_m", pressed), 1e-15);
+  const std::size_t last = stages.size() - 1;
+  EXPECT_NEAR(at("cell_shear_xy", last), 0.2, 0.01);  // ended by its goal
+  EXPECT_EQ(at("cell_edge_x_m", last), edge);
+  EXPECT_LT(at("stress_xy_Pa", last), -2e3);
+  EXPECT_GT(at("wall_work_J", last), at("wall_work_J", pressed));
+}
+
+/// ParaView sees every grain in the cell, and contacts no longer than grains reach.
+TEST_F(CellRunTest, FieldsShowGrainsInTheCell) {
+  (void)run(scene(), {.folder = root_ / "whole"});
+  const double edge = column("cell_edge_z_m").back();
+  const RunFolder folder{root_ / "whole"};
+  const auto last = [&](const char* kind) {
+    return VtkReader{root_ / "whole" /
+                     RunFolder::field_name(kind, folder.field_steps(kind).back())};
+  };
+  const auto points = last("grains").numbers(VtkSection::points, "Points", 3, 48);
+  for (std::size_t n = 0; n < points.size(); n += 3) {
+    EXPECT_LE(std::abs(points[n + 2] - 0.005), 0.5 * edge * (1 + 1e-12));
+  }
+  const VtkReader contacts = last("contacts");
+  const auto ends = contacts.numbers(VtkSection::points, "Points", 3,
+                                     contacts.tuples(VtkSection::points, "Points"));
+  EXPECT_GT(ends.size(), 6U * 40);
+  for (std::size_t n = 0; n + 5 < ends.size(); n += 6) {
+    const Vec3 line{ends[n] - ends[n + 3], ends[n + 1] - ends[n + 4], ends[n + 2] - ends[n + 5]};
+    EXPECT_LT(norm(line), 0.0022);
+  }
+}
+
+TEST_F(CellRunTest, FaultsAreFound) {
+  using Faults = std::vector<std::string>;
+  EXPECT_EQ(faults_of(scene()), Faults{});
+  EXPECT_EQ(faults_of(with(scene(), "high = [\"10 mm\", \"10 mm\", \"10 mm\"]\n[time]",
+                           "high = [\"10 mm\", \"4 mm\", \"10 mm\"]\n[time]")),
+            (Faults{"cell: is 0.004 m wide along y, but must be 0.0052 m at least",
+                    "grains[0].fill: reaches beyond the periodic cell along y"}));
+  EXPECT_EQ(faults_of(scene() + "[body]\ngravity = [0, 0, -9.81]\n"),
+            (Faults{"body.gravity: lets all grains fall for ever in a cell that is periodic along "
+                    "all axes"}));
+  EXPECT_EQ(faults_of(scene() + "[parallel]\ndecomposition = \"bins\"\n"),
+            (Faults{"parallel.decomposition: `bins` knows no periodic cell"}));
+  EXPECT_EQ(faults_of(scene() + "[[wall]]\nname = \"floor\"\nplane = { point = [0, 0, 0], normal = "
+                                "[0, 0, 1] }\n"),
+            (Faults{"wall: wall floor stands across z, along which the cell is periodic"}));
+  const std::string open = with(scene(), "[cell]\n", "[cell]\nperiodic = \"xz\"\n");
+  EXPECT_EQ(faults_of(open),
+            (Faults{"stage[0].control[0].wall: the cell is not periodic along y",
+                    "stage[0].control[0]: a stress needs a cell that is periodic along all axes",
+                    "stage[1].control[0].wall: the cell is not periodic along y",
+                    "stage[1].control[0]: a stress needs a cell that is periodic along all axes",
+                    "stage[1].control[1].wall: the cell is not periodic along y",
+                    "stage[1].until: needs walls that close off a space, which these do not"}));
+  EXPECT_EQ(
+      faults_of(with(scene(), "\"cell.xy\", strain_rate = 60", "\"cell.xy\", speed = 60")),
+      (Faults{"stage[1].control[1]: shear takes a `strain_rate` only",
+              "stage[1].control[1]: a cell takes a `stress` or a `strain_rate`, no `speed`"}));
+  EXPECT_EQ(
+      faults_of(with(scene(), "\"cell.xy\", strain_rate = 60", "\"cell\", stress = 60")),
+      (Faults{"stage[1].control[1].wall: another control of this stage moves this part of the "
+              "cell already"}));
+  EXPECT_EQ(faults_of(with(scene(), "\"cell.xy\"", "\"cell.yx\"")),
+            (Faults{"stage[1].control[1].wall: no plane or pair of planes is named \"cell.yx\""}));
+}
+
+}  // namespace
+}  // namespace reckon
