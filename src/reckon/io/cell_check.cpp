@@ -154,7 +154,7 @@ void StageCheck::check_cell_control(const ControlConfig& control, const std::str
     }
     driven[static_cast<std::size_t>(axis)] = true;
     if (is_shear(axis) && control.target != WallTarget::strain_rate) {
-      fault_(key, "shear takes a `strain_rate` only", "");
+      return fault_(key, "shear takes a `strain_rate` only", "");
     }
   }
   if (control.target == WallTarget::speed) {

@@ -46,7 +46,7 @@ constexpr const char* shearing = R"(
 name = "shear"
 steps = 700
 until = { strain = 0.2 }
-control = [{ wall = "cell.y", stress = "20 kPa" }, { wall = "cell.xy", strain_rate = 60 }]
+control = [{ wall = "cell.y", stress = "20 kPa" }, { wall = "cell.xy", strain_rate = 20 }]
 )";
 
 class CellRunTest : public testing::RunSceneTest {
@@ -60,6 +60,7 @@ class CellRunTest : public testing::RunSceneTest {
     for (const SceneFault& fault : reading.faults) {
       found.push_back(fault.key + ": " + fault.problem);
     }
+    std::sort(found.begin(), found.end());
     return found;
   }
   static std::string with(std::string text, const std::string& part, const std::string& instead) {
@@ -93,8 +94,9 @@ TEST_F(CellRunTest, TellsOfStressStrainAndWork) {
   EXPECT_LT(std::abs(report.energy_error), 0.02 * report.energy_turnover);
   EXPECT_NE(report.stages.find("shear: peak friction angle"), std::string::npos) << report.stages;
   EXPECT_EQ(report.stages.find("by walls"), std::string::npos) << report.stages;
-  const auto stages = column("stage");
-  const auto pressed = static_cast<std::size_t>(std::count(stages.begin(), stages.end(), 1.0)) - 1;
+  const auto numbers = column("stage");
+  const auto pressed =
+      static_cast<std::size_t>(std::count(numbers.begin(), numbers.end(), 1.0)) - 1;
   const auto at = [&](const char* name, std::size_t row) { return column(name)[row]; };
   EXPECT_NEAR(at("stress_xx_Pa", pressed), 2e4, 2e3);
   EXPECT_NEAR(at("stress_zz_Pa", pressed), 2e4, 2e3);
@@ -103,8 +105,8 @@ TEST_F(CellRunTest, TellsOfStressStrainAndWork) {
   EXPECT_NEAR(at("strain_x", pressed), std::log(0.01 / edge), 1e-9);
   EXPECT_NEAR(at("volume_m3", pressed),
               edge * at("cell_edge_y_m", pressed) * at("cell_edge_z_m", pressed), 1e-15);
-  const std::size_t last = stages.size() - 1;
-  EXPECT_NEAR(at("cell_shear_xy", last), 0.2, 0.01);  // ended by its goal
+  const std::size_t last = numbers.size() - 1;
+  EXPECT_NEAR(at("cell_shear_xy", last), 0.2, 0.015);  // ended by its goal
   EXPECT_EQ(at("cell_edge_x_m", last), edge);
   EXPECT_LT(at("stress_xy_Pa", last), -2e3);
   EXPECT_GT(at("wall_work_J", last), at("wall_work_J", pressed));
@@ -149,21 +151,23 @@ TEST_F(CellRunTest, FaultsAreFound) {
                                 "[0, 0, 1] }\n"),
             (Faults{"wall: wall floor stands across z, along which the cell is periodic"}));
   const std::string open = with(scene(), "[cell]\n", "[cell]\nperiodic = \"xz\"\n");
-  EXPECT_EQ(faults_of(open),
-            (Faults{"stage[0].control[0].wall: the cell is not periodic along y",
-                    "stage[0].control[0]: a stress needs a cell that is periodic along all axes",
-                    "stage[1].control[0].wall: the cell is not periodic along y",
-                    "stage[1].control[0]: a stress needs a cell that is periodic along all axes",
-                    "stage[1].control[1].wall: the cell is not periodic along y",
-                    "stage[1].until: needs walls that close off a space, which these do not"}));
+  const std::string open_along_y = "the cell is not periodic along y";
+  const std::string no_stress = "a stress needs a cell that is periodic along all axes";
   EXPECT_EQ(
-      faults_of(with(scene(), "\"cell.xy\", strain_rate = 60", "\"cell.xy\", speed = 60")),
-      (Faults{"stage[1].control[1]: shear takes a `strain_rate` only",
-              "stage[1].control[1]: a cell takes a `stress` or a `strain_rate`, no `speed`"}));
+      faults_of(open),
+      (Faults{"stage[0].control[0].wall: " + open_along_y, "stage[0].control[0]: " + no_stress,
+              "stage[1].control[0].wall: " + open_along_y, "stage[1].control[0]: " + no_stress,
+              "stage[1].control[1].wall: " + open_along_y,
+              "stage[1].until: needs walls that close off a space, which these do not"}));
+  EXPECT_EQ(faults_of(with(scene(), "\"cell.xy\", strain_rate = 20", "\"cell.xy\", speed = 20")),
+            (Faults{"stage[1].control[1]: shear takes a `strain_rate` only"}));
   EXPECT_EQ(
-      faults_of(with(scene(), "\"cell.xy\", strain_rate = 60", "\"cell\", stress = 60")),
+      faults_of(with(scene(), "\"cell.xy\", strain_rate = 20", "\"cell\", stress = 20")),
       (Faults{"stage[1].control[1].wall: another control of this stage moves this part of the "
               "cell already"}));
+  EXPECT_EQ(
+      faults_of(with(scene(), "\"cell.xy\", strain_rate = 20", "\"cell.x\", speed = 20")),
+      (Faults{"stage[1].control[1]: a cell takes a `stress` or a `strain_rate`, no `speed`"}));
   EXPECT_EQ(faults_of(with(scene(), "\"cell.xy\"", "\"cell.yx\"")),
             (Faults{"stage[1].control[1].wall: no plane or pair of planes is named \"cell.yx\""}));
 }

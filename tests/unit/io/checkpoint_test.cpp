@@ -85,6 +85,7 @@ TEST_F(CheckpointTest, ReadsBackTheSameBits) {
   EXPECT_EQ(read.state.pair_springs[1].id_b, GrainId{4294967295U});
   EXPECT_EQ(read.state.wall_springs[0].springs, written.state.wall_springs[0].springs);
   EXPECT_EQ(read.state.membrane, written.state.membrane);
+  EXPECT_EQ(read.state.cell, written.state.cell);
   EXPECT_EQ(read.time_step, written.time_step);
   EXPECT_TRUE(std::signbit(read.energy_at_start));
   EXPECT_EQ(read.scene, written.scene);
