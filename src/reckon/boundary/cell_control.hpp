@@ -36,11 +36,18 @@ struct CellControl {
   double rate_limit{0};                   ///< of the servo [1/s]
 };
 
-/// What grains do to the cell at one step: sums over all contacts, exact before their one rounding.
+/// What grains do to the cell at one step, summed over all contacts.
 struct CellReaction {
   UpperMat3 virial;  ///< force (x) branch, volume times stress, compression positive [N m]
   Vec3 stiffness;    ///< K by axis [N m]
   Vec3 damping;      ///< C by axis [N m s]
+
+  CellReaction& operator+=(const CellReaction& b) {
+    virial += b.virial;
+    stiffness += b.stiffness;
+    damping += b.damping;
+    return *this;
+  }
 };
 
 /// Normal stress by axis, or shear stress, compression positive [Pa].

@@ -96,6 +96,8 @@ class GrainContacts {
   /// In the order of their slots, so that neighbours in space are neighbours in memory.
   [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
   [[nodiscard]] std::span<const PairForce> forces() const { return forces_; }
+  /// For every grain its pairs, in the order of the partners' ids.
+  [[nodiscard]] const PairsOfGrain& pairs_of_grain() const { return pairs_of_grain_; }
   [[nodiscard]] const ContactCounters& counters() const { return counters_; }
   /// What the grains of the last evaluate() have travelled; stands still with the plain engine.
   [[nodiscard]] const MotionMeter& meter() const { return meter_; }

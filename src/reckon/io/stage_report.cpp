@@ -82,6 +82,8 @@ double median(std::vector<double> values) {
 std::string paragraph(const std::string& name, bool free_volume, const Columns& columns,
                       const std::vector<std::size_t>& rows) {
   const std::string strain = axial(columns, rows.back());
+  if (strain.starts_with("cell_shear"))
+    free_volume = false;  // the angle is of triaxial compression
   std::vector<ShearPoint> curve;
   std::vector<double> inertial_numbers;
   std::vector<double> disagreements;

@@ -21,6 +21,18 @@
 #include "reckon/simulation/simulation.hpp"
 
 namespace reckon {
+namespace {
+
+/// Of one pair, `d` being its branch.
+CellReaction reaction_of(const PairForce& pair, const Vec3& d) {
+  const Vec3& f = pair.force_on_a;
+  const Vec3 squares = hadamard(d, d);
+  return {{hadamard(f, d), f.x * d.y, f.x * d.z, f.y * d.z},
+          pair.stiffness * squares,
+          pair.damping * squares};
+}
+
+}  // namespace
 
 /// The root's cell becomes everybody's.
 void Simulation::take_over_cell(const SimulationState& state) {
@@ -68,30 +80,33 @@ Vec3 Simulation::velocity_in_cell(std::size_t slot) const {
 CellReaction Simulation::cell_reaction() const {
   using Sums = std::array<ExactSum, 12>;
   std::vector<Sums> of_threads(static_cast<std::size_t>(thread_count()));
-  const std::span<const Pair> pairs = grain_contacts_.pairs();
-  parallel_for((pairs.size() + 255) / 256, 1, [&](std::size_t block) {
+  const std::span<const PairForce> forces = grain_contacts_.forces();
+  // A pair that two ranks share is told by the owner of its first grain: first each grain's share,
+  // in the order of partners, then the exact sum of all.
+  parallel_for(grains_.size(), 64, [&](std::size_t slot) {
+    CellReaction own;
+    for (const auto& entry : grain_contacts_.pairs_of_grain().of(slot)) {
+      const PairForce& pair = forces[entry.pair];
+      if (entry.is_a && pair.touching > 0) {
+        own += reaction_of(pair, branch(grain_contacts_.pairs()[entry.pair]));
+      }
+    }
+    const UpperMat3& v = own.virial;
+    const std::array<double, 12> terms{v.diagonal.x,
+                                       v.diagonal.y,
+                                       v.diagonal.z,
+                                       v.xy,
+                                       v.xz,
+                                       v.yz,
+                                       own.stiffness.x,
+                                       own.stiffness.y,
+                                       own.stiffness.z,
+                                       own.damping.x,
+                                       own.damping.y,
+                                       own.damping.z};
     Sums& sums = of_threads[static_cast<std::size_t>(thread_index())];
-    const std::size_t last = std::min(256 * (block + 1), pairs.size());
-    for (std::size_t p = 256 * block; p < last; ++p) {
-      const PairForce& pair = grain_contacts_.forces()[p];
-      // A pair that two ranks share is told by the owner of its first grain.
-      if (pair.touching == 0 || pairs[p].slot_a >= grains_.size()) continue;
-      const Vec3 d = branch(pairs[p]);
-      const Vec3& f = pair.force_on_a;
-      const Vec3 squares = hadamard(d, d);
-      const std::array<double, 12> terms{f.x * d.x,
-                                         f.y * d.y,
-                                         f.z * d.z,
-                                         f.x * d.y,
-                                         f.x * d.z,
-                                         f.y * d.z,
-                                         pair.stiffness * squares.x,
-                                         pair.stiffness * squares.y,
-                                         pair.stiffness * squares.z,
-                                         pair.damping * squares.x,
-                                         pair.damping * squares.y,
-                                         pair.damping * squares.z};
-      for (std::size_t n = 0; n < terms.size(); ++n) sums[n].add(terms[n]);
+    for (std::size_t n = 0; n < terms.size(); ++n) {
+      if (terms[n] != 0) sums[n].add(terms[n]);
     }
   });
   Sums& all = of_threads.front();
