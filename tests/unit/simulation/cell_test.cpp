@@ -78,8 +78,8 @@ SimulationSetup press_and_shear() {
   return setup;
 }
 
-constexpr int pressing = 1500;
-constexpr int shearing = 1500;
+constexpr int pressing = 1200;
+constexpr int shearing = 800;
 
 void press_then_shear(Simulation& simulation, int from = 0, int to = pressing + shearing) {
   for (int n = from; n < to; ++n) {
@@ -273,11 +273,12 @@ TEST(Cell, EndsInTheSameBitsWithEveryEngineSkinAndRestart) {
     const Measurement measured = plain.measure();
     setup.engine = ContactEngine::near;
     for (const double skin : {0.004, 0.05}) {
-      for (const SimdLevel simd : simd_levels_here()) {
-        if (skin < 0.01 && simd != SimdLevel::scalar) continue;  // one dimension at a time
+      for (const SimdLevel simd : {SimdLevel::scalar, simd_levels_here().back()}) {
+        // One dimension at a time.
+        if ((skin < 0.01 || master == MasterRule::both) != (simd == SimdLevel::scalar)) continue;
         setup.skin = skin;
         setup.simd = simd;
-        set_thread_count(skin > 0.01 ? 2 : 3);
+        set_thread_count(skin > 0.01 ? 2 : 1);
         Simulation first{setup, loose_grains(0.5)};
         for (int n = 0; n < 777; ++n) {
           if (n % 13 == 0) static_cast<void>(first.measure());
