@@ -55,10 +55,9 @@ class LevelSetBand {
   /// phi at the corners of a cell: bit 0 of the place is one step along x, bit 1 y, bit 2 z [m].
   [[nodiscard]] std::array<float, 8> corners(std::int32_t i, std::int32_t j, std::int32_t k) const {
     std::array<float, 8> phi{};
+    std::size_t corner = 0;
     for (std::int32_t c = 0; c < 4; ++c) {
-      const auto [low, high] = pair(i, j + (c & 1), k + (c >> 1));
-      phi[static_cast<std::size_t>(2 * c)] = low;
-      phi[static_cast<std::size_t>(2 * c + 1)] = high;
+      for (const float value : pair(i, j + (c & 1), k + (c >> 1))) phi[corner++] = value;
     }
     return phi;
   }
@@ -103,7 +102,7 @@ inline float LevelSetBand::deep_value(std::int32_t i, std::int32_t j, std::int32
 
 inline std::array<float, 2> LevelSetBand::pair(std::int32_t i, std::int32_t j,
                                                std::int32_t k) const {
-  const Word* const row = rows_ + 4 * static_cast<std::ptrdiff_t>(j + k * rows_per_layer_);
+  const Word* const row = rows_ + 4 * (std::ptrdiff_t{j} + std::ptrdiff_t{k} * rows_per_layer_);
   std::uint32_t near = pair_of_words(row + 2);
   std::array<float, 2> phi{outside_value_, outside_value_};
   const Word* const end = runs_ + 2 * std::size_t{pair_of_words(row + 4)};
