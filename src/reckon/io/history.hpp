@@ -26,6 +26,7 @@ struct HistoryColumn {
 struct HistoryLayout {
   std::span<const Wall> walls;
   bool membrane{false};
+  bool bonds{false};
   bool stages{false};  ///< the number of the stage
   bool sample{false};  ///< what SampleMeasurement holds
 };
@@ -35,12 +36,13 @@ struct HistoryRow {
   const Measurement& measurement;
   double energy_at_start{0};                 ///< EnergyBudget::total() at step 0 [J]
   bool membrane{false};                      ///< whether the layout has it
+  bool bonds{false};                         ///< likewise
   std::optional<std::uint64_t> stage{};      ///< counted from 1
   const SampleMeasurement* sample{nullptr};  ///< none where the layout has none
 };
 
-/// The columns of a run: fixed ones, three per wall, then those of membrane, stages and
-/// sample.
+/// The columns of a run: fixed ones, three per wall, then those of membrane, bonds,
+/// stages and sample.
 [[nodiscard]] std::vector<HistoryColumn> history_columns(const HistoryLayout& layout);
 
 /// The reference page docs/reference/history.md.

@@ -25,9 +25,11 @@ class StageCheck {
   void check_control(const ControlConfig& control, const std::string& key,
                      std::vector<bool>& controlled);
   void check_membrane();
+  void check_bonds();
   void check_goal(const StageConfig& stage, const std::string& key);
   [[nodiscard]] std::string known_planes() const;
 
+  const LoadedScene& loaded_;
   const SceneConfig& scene_;
   Fault fault_;
   std::vector<Wall> walls_;

@@ -51,6 +51,8 @@ std::vector<std::pair<std::string, WallSurface>> surfaces(const WallConfig& wall
   return {sides.begin(), sides.end()};
 }
 
+constexpr double bond_shear_share = 0.4;  // of the normal stiffness, unless given
+
 /// Of the membrane's nodes: leapfrog keeps their fastest oscillations stable with a wide margin.
 constexpr double membrane_phase = 0.5;     // radians per step
 constexpr double membrane_damping = 0.01;  // per step, unless given
@@ -58,6 +60,14 @@ constexpr double membrane_dashpot = 0.3;   // of what would be critical for a no
 constexpr double membrane_softness = 0.1;  // of the stiffness of grains, unless given
 
 }  // namespace
+
+std::optional<BondLaw> make_bond_law(const SceneConfig& scene) {
+  if (!scene.bond) return std::nullopt;
+  const BondConfig& config = *scene.bond;
+  const double normal = config.normal_stiffness.value_or(scene.contact.normal_stiffness);
+  return BondLaw{normal, config.shear_stiffness.value_or(bond_shear_share * normal),
+                 config.tensile_strength, config.shear_strength, config.radius_share};
+}
 
 std::optional<MembraneSetup> make_membrane(const SceneConfig& scene, std::span<const Wall> walls,
                                            double time_step) {
@@ -132,7 +142,7 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
       .contact = {make_law(config.contact, config.contact.normal_stiffness,
                            config.contact.shear_stiffness, true,
                            config.contact.node_cap.value_or(0), false),
-                  config.material.friction, config.contact.master},
+                  config.material.friction, config.contact.master, make_bond_law(config)},
       .walls = make_walls(config),
       .membrane = {},
       .outflows = outflow_planes(config),

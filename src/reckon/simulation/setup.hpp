@@ -37,6 +37,9 @@ struct PreparedScene {
 /// The walls of a scene; boxes are six of them, or five.
 [[nodiscard]] std::vector<Wall> make_walls(const SceneConfig& scene);
 
+/// The cement of a scene, if it has some.
+[[nodiscard]] std::optional<BondLaw> make_bond_law(const SceneConfig& scene);
+
 /// The membrane of a scene whose mould is one of the walls. Its mass, and what the scene leaves
 /// open of its stiffness and damping, follow from the time step.
 [[nodiscard]] std::optional<MembraneSetup> make_membrane(const SceneConfig& scene,

@@ -49,11 +49,13 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
   }
   for (const GrainState& grain : state.grains) grains_.push_back(grain);
   grain_contacts_.adopt(state.pair_springs);
+  grain_contacts_.adopt(state.broken_bonds);
   wall_contacts_.adopt(state.wall_springs);
   departed_ = state.departed;
   take_over_membrane(state);
-  take_over_walls_and_stages(state);
+  const bool first_stage_begins = take_over_walls_and_stages(state);
   costs_.assign(grains_.size(), 1.0);
+  if (first_stage_begins) set_bonds();
 }
 
 void Simulation::step() {
@@ -83,7 +85,7 @@ void Simulation::bring_up_to_date() {
   if (lists_are_stale_) {
     let_grains_out();
     distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_, costs_,
-                               2 * (largest_radius_ + largest_budget()));
+                               2 * (largest_radius_ + largest_budget()) + longest_gap());
     put_in_order();
     phase_times_.migration += watch.lap();
     distribution_.list_ghosts(grains_);
@@ -175,7 +177,7 @@ void Simulation::update_ghost_frames() {
 }
 
 void Simulation::rebuild_lists() {
-  grain_contacts_.rebuild(distribution_.find_pairs(frames_, budget_, grains_.size()),
+  grain_contacts_.rebuild(distribution_.find_pairs(frames_, budget_, longest_gap(), grains_.size()),
                           frames_.size());
   wall_contacts_.rebuild(owned_frames(), budget_);
   membrane_contacts_.forget();
@@ -227,6 +229,11 @@ double Simulation::largest_budget() const {
   return distribution_.ranks().max(
       parallel_max(grains_.size(), budget_.least,
                    [&](std::size_t slot) { return budget_.of(grains_.velocity[slot]); }));
+}
+
+/// Between the faces of a bond: its grains must see each other though they do not touch [m].
+double Simulation::longest_gap() const {
+  return setup_.contact.bond ? setup_.contact.bond->longest_gap() : 0;
 }
 
 /// Whether some grain of this rank, or some wall, has moved as far as it was listed for.
