@@ -75,8 +75,9 @@ SimulationSetup pressed_box(std::shared_ptr<const ShapeLibrary> shapes) {
 /// The pressed grains are cemented before they are sheared, and some of the cement breaks.
 SimulationSetup bonded_box(std::shared_ptr<const ShapeLibrary> shapes) {
   SimulationSetup setup = pressed_box(std::move(shapes));
-  setup.contact.bond = BondLaw{2e7, 1e7, 8e4, 6e4, 0.4};
+  setup.contact.bond = BondLaw{2e7, 1e7, 2e6, 1.5e6, 0.5};
   setup.stages[1].sets_bonds = true;
+  setup.stages[1].controls[2].value = 0.2;
   return setup;
 }
 

@@ -84,9 +84,16 @@ struct CylinderConfig {
   double radius{0};  ///< [m]
 };
 
+/// A solid quarter of space with one straight edge: a half of a shear box has one on each side.
+struct LedgeConfig {
+  Vec3 point;   ///< on the edge [m]
+  Vec3 normal;  ///< out of the face beside the edge; any length
+  Vec3 top;     ///< out of the other face, at right angles to it; any length
+};
+
 struct WallConfig {
   std::string name;
-  std::variant<PlaneConfig, BoxConfig, CylinderConfig> geometry;
+  std::variant<PlaneConfig, BoxConfig, CylinderConfig, LedgeConfig> geometry;
   std::optional<double> friction;          ///< default: the material's
   std::optional<double> normal_stiffness;  ///< default: the contact's
   std::optional<double> shear_stiffness;   ///< default: the contact's

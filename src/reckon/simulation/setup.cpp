@@ -47,6 +47,9 @@ std::vector<std::pair<std::string, WallSurface>> surfaces(const WallConfig& wall
   if (const auto* cylinder = std::get_if<CylinderConfig>(&wall.geometry)) {
     return {{"", CylinderSurface{cylinder->point, normalized(cylinder->axis), cylinder->radius}}};
   }
+  if (const auto* ledge = std::get_if<LedgeConfig>(&wall.geometry)) {
+    return {{"", LedgeSurface{ledge->point, normalized(ledge->normal), normalized(ledge->top)}}};
+  }
   const auto sides = box_sides(std::get<BoxConfig>(wall.geometry));
   return {sides.begin(), sides.end()};
 }
