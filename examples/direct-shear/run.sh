@@ -20,7 +20,7 @@ for run in sand spheres; do
 done
 if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
   /usr/bin/python3 examples/direct-shear/plot.py "$work/direct-shear.png" \
-    "$work/sand=900 grains, 100 kPa" "$work/spheres=spheres of the same volumes"
+    "$work/sand=350 grains, 100 kPa" "$work/spheres=spheres of the same volumes"
   /usr/bin/python3 examples/plot_band.py "$work/sand" "$work/shear-plane.png" y
   echo "plot: $work/direct-shear.png"
 fi
