@@ -32,6 +32,9 @@ py::dict table_of(const Measurement& m) {
   table["contacts"] = m.contacts;
   table["wall_contacts"] = m.wall_contacts;
   table["touching_nodes"] = m.touching_nodes;
+  table["bonds"] = m.bonds;
+  table["broken_in_tension"] = m.broken_bonds.in_tension;
+  table["broken_in_shear"] = m.broken_bonds.in_shear;
   table["coordination"] = m.coordination;
   table["unbalanced_ratio"] = m.unbalanced_ratio;
   table["deepest_overlap"] = m.deepest_overlap;
@@ -45,6 +48,7 @@ py::dict table_of(const Measurement& m) {
   energy["elastic"] = m.energy.elastic;
   energy["friction"] = m.energy.friction;
   energy["dashpot"] = m.energy.dashpot;
+  energy["fracture"] = m.energy.fracture;
   energy["damping"] = m.energy.damping;
   energy["body_work"] = m.energy.body_work;
   energy["wall_work"] = m.energy.wall_work;
@@ -83,6 +87,7 @@ py::dict table_of(const std::vector<ContactRecord>& contacts) {
   table["force"] = vectors(contacts, [](const auto& c) { return c.force; });
   table["deepest"] = column<double>(contacts, [](const auto& c) { return c.deepest; });
   table["touching"] = column<std::uint32_t>(contacts, [](const auto& c) { return c.touching; });
+  table["bonded"] = column<bool>(contacts, [](const auto& c) { return c.bonded; });
   return table;
 }
 

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analyse_command.hpp"
 #include "bench_command.hpp"
 #include "check_command.hpp"
 #include "diff_command.hpp"
@@ -128,6 +129,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
   add_report_command(app);
   add_watch_command(app);
   add_surfaces_command(app);
+  add_analyse_command(app);
   add_bench_command(app);
   add_reference_command(app);
   app.footer(std::string{"`reckon COMMAND --help` has examples.\n\n"} + exit_code_footer);

@@ -32,7 +32,8 @@ done <<'END'
 50 3.5 42.86
 200 7 21.43
 END
-if /usr/bin/python3 -c 'import matplotlib, scipy' 2>/dev/null; then
+"$reckon" analyse "$work/sand-100"
+if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
   /usr/bin/python3 examples/triaxial/plot.py "$work" "$work/triaxial.png"
-  /usr/bin/python3 examples/triaxial/plot_band.py "$work/sand-100" "$work/shear-band.png"
+  /usr/bin/python3 examples/plot_band.py "$work/sand-100" "$work/shear-band.png"
 fi

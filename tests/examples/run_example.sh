@@ -11,7 +11,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 data=$source/../shared/data/$name
 case "$name" in
-  settle | triaxial | triaxial-* | oedometer | isotropic | simple-shear | angle-of-repose | hopper)
+  settle | triaxial | triaxial-* | oedometer | isotropic | direct-shear | simple-shear | angle-of-repose | hopper)
     "$reckon" grains generate --count 4 --seed 7 --d50 1mm --threads 2 -o "$work/sand.h5" ;;
   aggregate57)
     [[ -d $data ]] || { echo "skipped: needs $data"; exit 77; }
@@ -30,5 +30,6 @@ cd "$work"
 "$reckon" run scene.toml --threads 2 --steps 100
 [[ -s scene.run/history.csv && -s scene.run/grains.pvd ]]
 "$reckon" surfaces scene.run
+"$reckon" analyse scene.run --from 0
 "$reckon" run scene.toml --threads 1 --steps 100 --out one_thread
 "$reckon" diff scene.run one_thread | grep bit-identical

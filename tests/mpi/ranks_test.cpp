@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
 // One simulation on all ranks of this mpirun against the same on one rank, bit by bit:
-//   ranks_test DECOMPOSITION STEPS THREADS SIMD [pressed|membrane|cell]
+//   ranks_test DECOMPOSITION STEPS THREADS SIMD [pressed|bonded|membrane|cell]
 // The one rank tests every node of every pair at every step. Where the machine lacks the
 // instructions that SIMD names, its widest are taken. The scene is a box of grains of two sizes,
 // thrown down, shaken and sheared by moving walls; `pressed` closes the box and drives its walls by
-// stress and strain rate, in two stages; `membrane` presses grains in a cylinder, and then takes it
-// for a membrane; `cell` has no walls but a periodic cell, pressed and then sheared. It is stopped
-// half-way and goes on from its state, as a restart does.
+// stress and strain rate, in two stages; `bonded` cements the grains before the second; `membrane`
+// presses grains in a cylinder, and then takes it for a membrane; `cell` has no walls but a
+// periodic cell, pressed and then sheared. It is stopped half-way and goes on from its state, as a
+// restart does.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -69,6 +70,15 @@ SimulationSetup pressed_box(std::shared_ptr<const ShapeLibrary> shapes) {
   }
   setup.stages[1].controls[2].target = WallTarget::strain_rate;
   setup.stages[1].controls[2].value = 1;
+  return setup;
+}
+
+/// The pressed grains are cemented before they are sheared, and some of the cement breaks.
+SimulationSetup bonded_box(std::shared_ptr<const ShapeLibrary> shapes) {
+  SimulationSetup setup = pressed_box(std::move(shapes));
+  setup.contact.bond = BondLaw{2e7, 1e7, 2e6, 1.5e6, 0.5};
+  setup.stages[1].sets_bonds = true;
+  setup.stages[1].controls[2].value = 0.2;
   return setup;
 }
 
@@ -222,6 +232,7 @@ int test(const Communicator& world, const std::string& decomposition, int steps,
   const auto make = wrapped              ? wrapped_cylinder
                     : scene == "pressed" ? pressed_box
                     : scene == "cell"    ? sheared_cell
+                    : scene == "bonded"  ? bonded_box
                                          : shaken_box;
   const SimulationState start =
       scene == "cell" ? grains_in_cell() : thrown_grains(*shapes, wrapped);
@@ -239,6 +250,15 @@ int test(const Communicator& world, const std::string& decomposition, int steps,
   if (wrapped && expected.state.membrane.springs.size() < 50) {
     std::printf("too few nodes of the membrane touch to tell\n");
     ++failures;
+  }
+  const Measurement& told = expected.measurement;
+  if (scene == "bonded") {
+    std::printf("%llu bonds hold, %llu and %llu broke in tension and shear: ",
+                static_cast<unsigned long long>(told.bonds),
+                static_cast<unsigned long long>(told.broken_bonds.in_tension),
+                static_cast<unsigned long long>(told.broken_bonds.in_shear));
+    if (told.bonds < 10 || told.broken_bonds.in_tension + told.broken_bonds.in_shear < 10)
+      ++failures;
   }
   if (!scene.empty()) {
     std::printf("pressed to (%.0f, %.0f, %.0f) Pa: ", expected.sample.stress.row_x.x,

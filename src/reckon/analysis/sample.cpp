@@ -48,7 +48,7 @@ double add_pairs(const Simulation& simulation, Sums& sums, std::vector<std::int6
   for (std::size_t p = 0; p < contacts.pairs().size(); ++p) {
     const Pair& pair = contacts.pairs()[p];
     const PairForce& force = contacts.forces()[p];
-    if (force.touching == 0) continue;
+    if (!force.holds()) continue;
     if (pair.slot_a < owned) ++degree[pair.slot_a];
     if (pair.slot_b < owned) ++degree[pair.slot_b];
     if (pair.slot_a >= owned) continue;
@@ -74,6 +74,7 @@ void add_normals(const Simulation& simulation, Sums& sums) {
     for (const NodeSpring& spring : springs.springs) {
       normal += spring.master_is_b ? -spring.normal : spring.normal;
     }
+    if (normal == Vec3{}) continue;  // held by its bond alone
     ++sums.with_normal;
     sums.normals.add(outer(normalized(normal), normalized(normal)));
   }

@@ -61,7 +61,7 @@ std::optional<Enclosure> right_box(std::span<const Plane> planes, std::size_t wa
 }
 
 struct Face {
-  std::optional<std::size_t> wall;  // none: of the block that is cut
+  const Plane* plane{nullptr};  // none: of the block that is cut
   std::vector<Vec3> corners;
 };
 
@@ -106,7 +106,7 @@ void order_around(const Vec3& normal, std::vector<Vec3>& points) {
 /// Keeps the part of a convex body with dot(normal, p) >= offset (Sutherland and Hodgman, face by
 /// face) and closes the cut.
 void cut(std::vector<Face>& faces, const Plane& plane) {
-  Face lid{plane.wall, {}};
+  Face lid{&plane, {}};
   for (Face& face : faces) {
     std::vector<Vec3> kept;
     for (std::size_t n = 0; n < face.corners.size(); ++n) {
@@ -154,13 +154,13 @@ std::optional<Enclosure> convex_body(std::span<const Plane> planes, std::size_t 
   for (const Face& face : faces) {
     if (face.corners.size() < 3) continue;
     const double area = norm(area_vector(face));
-    if (!face.wall) {
+    if (face.plane == nullptr) {
       if (area > 0) return std::nullopt;  // some of the block is left: open to that side
       continue;
     }
-    body.areas[*face.wall] = area;
-    body.volume +=
-        area / 3 * std::abs(dot(normalized(area_vector(face)), face.corners[0] - centre));
+    body.areas[face.plane->wall] = area;
+    // A pyramid below the centre, which may lie outside: planes that bound nothing count in it.
+    body.volume += area / 3 * (dot(face.plane->normal_unit, centre) - face.plane->offset);
     for (const Vec3& p : face.corners) {
       for (int axis = 0; axis < 3; ++axis) {
         body.low[axis] = std::min(body.low[axis], p[axis]);
@@ -224,26 +224,76 @@ Enclosure inside(const ClosedCylinder& cylinder, std::size_t cylinder_wall,
   return body;
 }
 
+/// Inside all planes.
+std::optional<Enclosure> inside(std::span<const Plane> planes, std::size_t wall_count) {
+  const bool all_across_axes = std::all_of(planes.begin(), planes.end(),
+                                           [](const Plane& p) { return axis_of(p).has_value(); });
+  return all_across_axes ? right_box(planes, wall_count) : convex_body(planes, wall_count);
+}
+
+/// A shear box. The cut has the place behind all walls, which goes at the end.
+std::optional<Enclosure> shear_box(std::span<const Wall> walls, std::span<const WallPose> poses,
+                                   const Vec3& up) {
+  const std::size_t cut = walls.size();
+  std::array<std::vector<Plane>, 2> sides;  // of the lower half, whose tops point up; the upper
+  std::array<double, 2> heights{};
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const auto* ledge = std::get_if<LedgeSurface>(&walls[w].surface);
+    if (ledge == nullptr) continue;
+    const double slope = dot(ledge->top_unit, up);
+    if (std::abs(std::abs(slope) - 1) > 1e-12) return std::nullopt;
+    const std::size_t half = slope > 0 ? 0 : 1;
+    const Vec3 edge = ledge->point + poses[w].displacement;
+    sides[half].push_back({w, ledge->normal_unit, dot(ledge->normal_unit, edge)});
+    heights[half] += dot(up, edge);
+  }
+  if (sides[0].empty() || sides[1].empty()) return std::nullopt;
+  const double height = 0.5 * (heights[0] / static_cast<double>(sides[0].size()) +
+                               heights[1] / static_cast<double>(sides[1].size()));
+  std::optional<Enclosure> whole;
+  for (const std::size_t half : {0U, 1U}) {
+    std::vector<Plane> planes = placed_planes(walls, poses);
+    planes.insert(planes.end(), sides[half].begin(), sides[half].end());
+    planes.push_back(half == 0 ? Plane{cut, -up, -height} : Plane{cut, up, height});
+    const auto part = inside(planes, walls.size() + 1);
+    if (!part) return std::nullopt;
+    if (!whole) {
+      whole = part;
+      continue;
+    }
+    whole->volume += part->volume;
+    for (int axis = 0; axis < 3; ++axis) {
+      whole->low[axis] = std::min(whole->low[axis], part->low[axis]);
+      whole->high[axis] = std::max(whole->high[axis], part->high[axis]);
+    }
+    for (std::size_t w = 0; w < cut; ++w) whole->areas[w] += part->areas[w];
+  }
+  whole->areas.pop_back();
+  return whole;
+}
+
 }  // namespace
 
 std::optional<Enclosure> enclosure_of(std::span<const Wall> walls,
                                       std::span<const WallPose> poses) {
   const std::vector<Plane> planes = placed_planes(walls, poses);
   std::optional<std::size_t> cylinder;
+  const LedgeSurface* ledge = nullptr;
   for (std::size_t w = 0; w < walls.size(); ++w) {
+    if (const auto* found = std::get_if<LedgeSurface>(&walls[w].surface)) ledge = found;
     if (!std::holds_alternative<CylinderSurface>(walls[w].surface)) continue;
     if (cylinder) return std::nullopt;
     cylinder = w;
   }
+  if (cylinder && ledge != nullptr) return std::nullopt;
+  if (ledge != nullptr) return shear_box(walls, poses, ledge->top_unit);
   if (cylinder) {
     const auto closed = between(planes, std::get<CylinderSurface>(walls[*cylinder].surface),
                                 poses[*cylinder].displacement);
     if (!closed) return std::nullopt;
     return inside(*closed, *cylinder, walls.size());
   }
-  const bool all_across_axes = std::all_of(planes.begin(), planes.end(),
-                                           [](const Plane& p) { return axis_of(p).has_value(); });
-  return all_across_axes ? right_box(planes, walls.size()) : convex_body(planes, walls.size());
+  return inside(planes, walls.size());
 }
 
 std::optional<ClosedCylinder> closed_cylinder(std::span<const Wall> walls,

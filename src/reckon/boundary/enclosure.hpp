@@ -23,8 +23,10 @@ struct Enclosure {
 };
 
 /// The space inside all planes, or inside one cylinder between planes at right angles to its axis.
-/// Nothing when that is not bounded, is empty, or is of a form whose volume is not known exactly: a
-/// cylinder cut by oblique planes, or several cylinders.
+/// Where there are ledges, whose tops must face each other: that of the halves below and above,
+/// each inside all planes and its ledges, cut half-way between their tops. Nothing when that is not
+/// bounded, is empty, or is of a form whose volume is not known exactly: a cylinder cut by oblique
+/// planes, or several cylinders.
 [[nodiscard]] std::optional<Enclosure> enclosure_of(std::span<const Wall> walls,
                                                     std::span<const WallPose> poses);
 

@@ -8,6 +8,7 @@
 
 #include "reckon/contact/motion_meter.hpp"
 #include "reckon/contact/near_skin.hpp"
+#include "reckon/contact/sphere_contact.hpp"
 
 namespace reckon {
 namespace {
@@ -40,6 +41,20 @@ double test_node(const GrainFrame& grain, const Wall& wall, const Surface& surfa
   return phi;
 }
 
+/// Whether touches of this grain need no nodes.
+bool is_sphere_on_plane(const GrainFrame& grain, const Wall& wall) {
+  return grain.shape->sphere_radius > 0 && !wall.shortened_lever &&
+         std::holds_alternative<PlaneSurface>(wall.surface);
+}
+
+/// A sphere on a plane, which is a sphere without end: see touch_spheres.
+void touch_plane(const GrainFrame& grain, const Wall& wall, double from_center,
+                 std::vector<Touch>& touches) {
+  const double radius = grain.shape->sphere_radius;
+  const Vec3& normal = std::get<PlaneSurface>(wall.surface).normal_unit;
+  add_cap_touches(radius - from_center, radius, normal, -from_center * normal, touches);
+}
+
 }  // namespace
 
 double distance(const Wall& wall, const WallPose& pose, const Vec3& point) {
@@ -50,7 +65,9 @@ double distance(const Wall& wall, const WallPose& pose, const Vec3& point) {
 void find_wall_touches(const GrainFrame& grain, const Wall& wall, const WallPose& pose,
                        std::vector<Touch>& touches) {
   const ShapeView& shape = *grain.shape;
-  if (!(distance(wall, pose, grain.position) < shape.bounding_radius)) return;
+  const double from_center = distance(wall, pose, grain.position);
+  if (is_sphere_on_plane(grain, wall)) return touch_plane(grain, wall, from_center, touches);
+  if (!(from_center < shape.bounding_radius)) return;
   std::visit(
       [&](const auto& surface) {
         const Vec3 center = grain.position - pose.displacement;
@@ -67,6 +84,11 @@ double NearWall::find_touches(const GrainFrame& grain, const Wall& wall, const W
                               ContactCounters& counters) {
   const double margin = rounding_margin(grain, wall, pose, odometer);
   const double from_center = distance(wall, pose, grain.position);
+  if (is_sphere_on_plane(grain, wall)) {
+    touch_plane(grain, wall, from_center, touches);
+    const double apart = from_center - grain.shape->sphere_radius - margin;
+    return from_center < grain.shape->sphere_radius ? wake_always : odometer + std::max(apart, 0.0);
+  }
   const double radius = list_.exists() ? list_.partner().radius : grain.shape->bounding_radius;
   if (!(from_center < radius)) return odometer + std::max(from_center - radius - margin, 0.0);
   if (!list_.complete_at(odometer)) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -39,8 +41,34 @@ struct CylinderSurface {
   }
 };
 
+/// The outside of a solid quarter of space, a ledge with one straight edge, as half of a shear box
+/// has on each side:
+///
+///          grains          top_unit, normal_unit point out of the two faces, at right angles;
+///   ______________         the faces meet in the edge
+///   solid        | grains
+struct LedgeSurface {
+  Vec3 point;  ///< on the edge [m]
+  Vec3 normal_unit;
+  Vec3 top_unit;
+
+  /// Exact: to the nearer face inside; to the nearest point of both faces outside [m].
+  [[nodiscard]] double distance(const Vec3& p) const {
+    const double beside = dot(p - point, normal_unit);
+    const double above = dot(p - point, top_unit);
+    if (beside > 0 && above > 0) return std::sqrt(beside * beside + above * above);
+    return std::max(beside, above);
+  }
+  [[nodiscard]] Vec3 gradient(const Vec3& p) const {
+    const double beside = dot(p - point, normal_unit);
+    const double above = dot(p - point, top_unit);
+    if (beside > 0 && above > 0) return normalized(beside * normal_unit + above * top_unit);
+    return above > beside ? top_unit : normal_unit;
+  }
+};
+
 /// Signed distance to the wall, positive where grains may be, with gradient length one.
-using WallSurface = std::variant<PlaneSurface, CylinderSurface>;
+using WallSurface = std::variant<PlaneSurface, CylinderSurface, LedgeSurface>;
 
 /// How a wall moves: by velocity * t plus amplitude * sin(2 pi frequency t), with t counted from
 /// `start` and held from `stop` on.

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "reckon/contact/area_law.hpp"
+#include "reckon/contact/bond_law.hpp"
 #include "reckon/contact/hertz_law.hpp"
 #include "reckon/contact/linear_law.hpp"
 
@@ -31,6 +33,7 @@ struct ContactSettings {
   AnyContactLaw law;
   double friction{0};  ///< Coulomb coefficient
   MasterRule master{MasterRule::lower_id};
+  std::optional<BondLaw> bond{};  ///< of cement, where a stage sets it
 };
 
 }  // namespace reckon

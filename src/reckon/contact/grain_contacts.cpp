@@ -23,8 +23,8 @@ void add_directed(PairForce& pair, const DirectedForce& directed, bool master_is
   pair.elastic += directed.elastic;
   pair.friction += directed.friction;
   pair.dashpot += directed.dashpot;
-  pair.stiffness += directed.stiffness;
-  pair.damping += directed.damping;
+  pair.stiffness += static_cast<float>(directed.stiffness);
+  pair.damping += static_cast<float>(directed.damping);
   pair.touching += directed.touching;
 }
 
@@ -84,6 +84,11 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
   std::vector<double> wake(pairs.size(), wake_always);
   std::vector<NearPair> near(pairs.size());
   std::vector<Vec3> images(cell_ ? pairs.size() : 0);
+  const auto old_bonds = std::exchange(bonds_, {});
+  const auto old_bond_of_pair = std::exchange(bond_of_pair_, {});
+  fates_.clear();
+  pair_of_bond_.clear();
+  bond_of_pair_.assign(pairs.size(), no_bond);
   auto old = by_ids_.begin();
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const std::uint32_t place = by_ids[p];
@@ -98,6 +103,9 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
       wake[place] = wake_[*old];
       near[place] = std::move(near_[*old]);
       if (*old < images_.size() && cell_) images[place] = images_[*old];
+      if (const auto bond = old_bond_of_pair[*old]; bond != no_bond) {
+        keep_bond(place, old_bonds[bond]);
+      }
     }
   }
   pairs_ = std::move(listed);
@@ -147,17 +155,65 @@ PairContext GrainContacts::context_of(const GrainFrame& a, const GrainFrame& b,
           .time_step = time_step};
 }
 
-/// What the force of a pair means for the next step, once it is known. `wake`: by its near lists.
-void GrainContacts::settle(std::size_t p, double wake, bool had_springs,
-                           ContactCounters& counters) {
+/// What the force of a pair means for the next step, once that of its nodes is known. `wake`: by
+/// its near lists.
+void GrainContacts::settle(std::size_t p, std::span<const GrainFrame> frames, double wake,
+                           bool had_springs, ContactCounters& counters) {
+  const bool had_bond = bond_of_pair_[p] != no_bond;
+  if (had_bond) add_bond(p, frames);
   // A pair that lets go of springs is looked at once more, so that both buffers are empty when it
   // falls asleep.
-  wake_[p] = had_springs ? wake_always : wake;
+  wake_[p] = had_springs || had_bond ? wake_always : wake;
   const PairForce& force = forces_[p];
-  acts_[p] = force.touching > 0 || force.friction != 0 || force.dashpot != 0 ? 1 : 0;
+  acts_[p] = force.holds() || force.friction != 0 || force.dashpot != 0 || force.fracture != 0;
   ++counters.awake;
   counters.touching_nodes += force.touching;
   if (force.touching > 0) ++counters.touching_pairs;
+}
+
+void GrainContacts::keep_bond(std::size_t p, const Bond& bond) {
+  bond_of_pair_[p] = static_cast<std::uint32_t>(bonds_.size());
+  bonds_.push_back(bond);
+  fates_.push_back(BondFate::holds);
+  pair_of_bond_.push_back(static_cast<std::uint32_t>(p));
+}
+
+/// A bond that breaks lets go at once; it is gone with commit().
+void GrainContacts::add_bond(std::size_t p, std::span<const GrainFrame> frames) {
+  const std::uint32_t bond = bond_of_pair_[p];
+  std::optional<GrainFrame> image;
+  const BondForce cement =
+      settings_.bond->respond(bonds_[bond], frames[pairs_[p].slot_a], image_of_b(p, frames, image));
+  PairForce& pair = forces_[p];
+  fates_[bond] = cement.fate;
+  pair.bonded = cement.fate == BondFate::holds;
+  if (!pair.bonded) {
+    pair.fracture = cement.elastic;
+    return;
+  }
+  pair.force_on_a += cement.force_on_a;
+  pair.moment_a += cement.moment_a;
+  pair.moment_b += cement.moment_b;
+  pair.elastic += cement.elastic;
+  pair.stiffness += static_cast<float>(settings_.bond->stiffness(bonds_[bond]));
+}
+
+void GrainContacts::set_bonds(std::span<const GrainFrame> frames) {
+  std::vector<Touch> touches;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    if (forces_[p].touching == 0 || bond_of_pair_[p] != no_bond) continue;
+    std::optional<GrainFrame> image;
+    const GrainFrame& a = frames[pairs_[p].slot_a];
+    const GrainFrame& b = image_of_b(p, frames, image);
+    touches.clear();
+    find_touches(a, b, touches);
+    const bool master_is_b = touches.empty();
+    if (master_is_b) find_touches(b, a, touches);
+    const auto bond = set_bond(*settings_.bond, a, b, touches, master_is_b);
+    if (!bond) continue;
+    keep_bond(p, *bond);
+    wake_[p] = wake_always;
+  }
 }
 
 /// Tests every node and answers one after the other: the oracle.
@@ -185,7 +241,7 @@ void GrainContacts::evaluate_plainly(const Law& law, std::size_t p,
     });
   });
   forces_[p] = pair;
-  settle(p, wake_always, !old.empty(), scratch.counters);
+  settle(p, frames, wake_always, !old.empty(), scratch.counters);
 }
 
 /// Finds the touching nodes of a pair by its near lists and lets them wait for their law.
@@ -236,7 +292,7 @@ void GrainContacts::answer_waiting(const Law& law, std::span<const GrainFrame> f
       });
     });
     forces_[p] = pair;
-    settle(p, waiting.wake, !old.empty(), scratch.counters);
+    settle(p, frames, waiting.wake, !old.empty(), scratch.counters);
   }
   scratch.waiting.clear();
   scratch.batch.clear();
@@ -281,6 +337,7 @@ bool GrainContacts::may_use_near_lists() {
 
 void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_step,
                              std::size_t owned, const std::function<void()>& others_arrive) {
+  owned_ = owned;
   const bool uses_meter = engine_ == ContactEngine::near;
   if (uses_meter) {
     meter_.begin(frames, cell_ ? &cell_motion_ : nullptr);
@@ -320,13 +377,14 @@ void GrainContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> led
       const PairForce& pair = forces_[entry.pair];
       // A pair that is listed but does not touch adds nothing, not even a signed zero: the answer
       // must not depend on the list.
-      if (pair.touching > 0) {
+      if (pair.holds()) {
         loads[slot] += entry.is_a ? Load{pair.force_on_a, pair.moment_a}
                                   : Load{-pair.force_on_a, pair.moment_b};
       }
       if (entry.is_a) {
         if (pair.friction != 0) ledgers[slot].friction += pair.friction;
         if (pair.dashpot != 0) ledgers[slot].dashpot += pair.dashpot;
+        if (pair.fracture != 0) ledgers[slot].fracture += pair.fracture;
       }
     }
   });
@@ -335,13 +393,22 @@ void GrainContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> led
 void GrainContacts::commit() {
   store_.commit();
   springs_of_pair_.swap(new_springs_of_pair_);
+  for (std::size_t bond = 0; bond < fates_.size(); ++bond) {
+    if (fates_[bond] == BondFate::holds) continue;
+    const std::uint32_t p = pair_of_bond_[bond];
+    if (bond_of_pair_[p] != bond) continue;  // it broke before
+    bond_of_pair_[p] = no_bond;
+    if (pairs_[p].slot_a >= owned_) continue;
+    ++(fates_[bond] == BondFate::breaks_in_tension ? broken_.in_tension : broken_.in_shear);
+  }
 }
 
 std::size_t GrainContacts::bytes() const {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   std::size_t sum = of(pairs_) + of(by_ids_) + of(pairs_of_grain_.first) +
                     of(pairs_of_grain_.entries) + of(springs_of_pair_) + of(new_springs_of_pair_) +
-                    of(forces_) + of(acts_) + of(wake_) + of(near_) + store_.bytes();
+                    of(forces_) + of(acts_) + of(wake_) + of(near_) + store_.bytes() +
+                    of(bond_of_pair_) + of(bonds_) + of(fates_) + of(pair_of_bond_);
   for (const NearPair& pair : near_) sum += pair.of_a.bytes() + pair.of_b.bytes();
   return sum;
 }
@@ -350,8 +417,10 @@ std::vector<PairSprings> GrainContacts::springs() const {
   std::vector<PairSprings> all;
   for (const std::uint32_t p : by_ids_) {
     const auto springs = store_.read(springs_of_pair_[p]);
-    if (springs.empty()) continue;
+    const std::uint32_t bond = bond_of_pair_[p];
+    if (springs.empty() && bond == no_bond) continue;
     all.push_back({pairs_[p].id_a, pairs_[p].id_b, {springs.begin(), springs.end()}});
+    if (bond != no_bond) all.back().bond = bonds_[bond];
   }
   return all;
 }
@@ -365,11 +434,13 @@ void GrainContacts::adopt(std::span<const PairSprings> springs) {
     if (added) {
       pairs_.push_back({pair.id_a, pair.id_b, 0, 0});
       springs_of_pair_.emplace_back();
+      bond_of_pair_.push_back(no_bond);
       wake_.push_back(wake_always);
       near_.emplace_back();
       if (cell_) images_.emplace_back();
     }
     const std::uint32_t p = entry->second;
+    if (pair.bond && bond_of_pair_[p] == no_bond) keep_bond(p, *pair.bond);
     if (springs_of_pair_[p].count > 0) continue;  // both ranks of a pair hold the same springs
     springs_of_pair_[p] = store_.adopt(pair.springs);
     wake_[p] = wake_always;

@@ -30,18 +30,31 @@ struct PairForce {
   double elastic{0};          ///< stored [J]
   double friction{0};         ///< lost in this step [J]
   double dashpot{0};          ///< lost in this step [J]
-  double stiffness{0};        ///< see ContactLaw [N/m]
-  double damping{0};          ///< likewise [N s/m]
+  double fracture{0};         ///< lost in this step, as a bond broke [J]
+  float stiffness{0};         ///< see ContactLaw; of a bond, too [N/m]
+  float damping{0};           ///< likewise [N s/m]
   std::uint32_t touching{0};  ///< nodes
+  bool bonded{false};         ///< and the bond holds, whose force is in the sum
+
+  [[nodiscard]] bool holds() const { return touching > 0 || bonded; }
 };
 
-/// Springs of one pair as a checkpoint or a message carries them.
+/// The memory of one pair as a checkpoint or a message carries it.
 struct PairSprings {
   GrainId id_a;
   GrainId id_b;
   std::vector<NodeSpring> springs;  ///< a's nodes first, each in node order
+  std::optional<Bond> bond{};
 
   friend bool operator==(const PairSprings&, const PairSprings&) = default;
+};
+
+/// Bonds that broke since the start, by their end.
+struct BrokenBonds {
+  std::uint64_t in_tension{0};
+  std::uint64_t in_shear{0};
+
+  friend bool operator==(const BrokenBonds&, const BrokenBonds&) = default;
 };
 
 /// Contacts between grains: the list of pairs, their springs and their forces.
@@ -83,12 +96,18 @@ class GrainContacts {
   /// and the pair's losses to its grain of lower id. Arrays are per slot.
   void add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const;
 
-  /// The springs of the last evaluate() become the memory of the next.
+  /// The springs of the last evaluate() become the memory of the next, and bonds break.
   void commit();
 
   /// From the next evaluate() on, pairs meet in this cell, as it is then. `motion` tells how it has
   /// moved since the last evaluate().
   void set_cell(const PeriodicCell& cell, const CellMotion& motion);
+  /// Sets a bond at every pair that touched in the last evaluate() and has none; the settings must
+  /// have the law.
+  void set_bonds(std::span<const GrainFrame> frames);
+  /// Of pairs whose first grain was among the owned ones.
+  [[nodiscard]] const BrokenBonds& broken_bonds() const { return broken_; }
+  void adopt(const BrokenBonds& broken) { broken_ = broken; }
 
   /// Sets the Coulomb coefficient from the next evaluate() on.
   void set_friction(double friction) { settings_.friction = friction; }
@@ -105,10 +124,10 @@ class GrainContacts {
   /// Memory held by lists, pairs and springs.
   [[nodiscard]] std::size_t bytes() const;
 
-  /// Springs of all touching pairs, sorted by (id_a, id_b).
+  /// Springs and bonds of all pairs that have some, sorted by (id_a, id_b).
   [[nodiscard]] std::vector<PairSprings> springs() const;
-  /// Takes over springs from a checkpoint or another rank, of pairs that have none here. A rebuild
-  /// must follow, which lists those pairs.
+  /// Takes over springs and bonds from a checkpoint or another rank, of pairs that have none here.
+  /// A rebuild must follow, which lists those pairs.
   void adopt(std::span<const PairSprings> springs);
 
  private:
@@ -157,7 +176,10 @@ class GrainContacts {
                                std::optional<GrainFrame>& image);
   [[nodiscard]] PairContext context_of(const GrainFrame& a, const GrainFrame& b,
                                        double time_step) const;
-  void settle(std::size_t p, double wake, bool had_springs, ContactCounters& counters);
+  void settle(std::size_t p, std::span<const GrainFrame> frames, double wake, bool had_springs,
+              ContactCounters& counters);
+  void add_bond(std::size_t p, std::span<const GrainFrame> frames);
+  void keep_bond(std::size_t p, const Bond& bond);
 
   ContactSettings settings_;
   ContactEngine engine_;
@@ -171,6 +193,13 @@ class GrainContacts {
   std::vector<PairForce> forces_;
   std::vector<std::uint8_t> acts_;  // per pair: whether its force or losses are to be added
   SpringStore store_;
+  static constexpr std::uint32_t no_bond = 0xFFFFFFFF;
+  std::vector<std::uint32_t> bond_of_pair_;  // in bonds_, or no_bond
+  std::vector<Bond> bonds_;                  // those that broke stay until the next rebuild
+  std::vector<BondFate> fates_;              // of the bonds at the last evaluate()
+  std::vector<std::uint32_t> pair_of_bond_;
+  BrokenBonds broken_;
+  std::size_t owned_{0};  // frames at the last evaluate()
 
   MotionMeter meter_;
   std::vector<double> wake_;    // per pair: odometer reading; minus infinity: awake

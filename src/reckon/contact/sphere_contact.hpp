@@ -15,6 +15,17 @@ namespace reckon {
   return a.shape->sphere_radius > 0 && b.shape->sphere_radius > 0;
 }
 
+/// What stands for all nodes in a cap of this overlap, if it is one, where round bodies of this
+/// reduced radius touch: see touch_spheres.
+inline void add_cap_touches(double overlap, double reduced_radius, const Vec3& normal,
+                            const Vec3& lever, std::vector<Touch>& touches) {
+  if (!(overlap > 0)) return;
+  const double area = 0.5 * (2 * std::numbers::pi) * reduced_radius * overlap;
+  constexpr double gauss = 0.5 * std::numbers::inv_sqrt3;
+  touches.push_back({0, -(0.5 + gauss) * overlap, normal, lever, area});
+  touches.push_back({1, -(0.5 - gauss) * overlap, normal, lever, area});
+}
+
 /// Two spheres. Appends what stands for all nodes of the master that touch, if any do, and returns
 /// the distance between the surfaces [m].
 ///
@@ -34,11 +45,7 @@ inline double touch_spheres(const GrainFrame& master, const GrainFrame& slave,
   if (!(overlap > 0) || !(distance > 0)) return -overlap;
   const Vec3 normal = apart / distance;
   const double to_plane = 0.5 * (distance + (r - other) * (r + other) / distance);
-  const Vec3 lever = -to_plane * normal;
-  const double area = 0.5 * (2 * std::numbers::pi) * (r * other / (r + other)) * overlap;
-  constexpr double gauss = 0.5 * std::numbers::inv_sqrt3;
-  touches.push_back({0, -(0.5 + gauss) * overlap, normal, lever, area});
-  touches.push_back({1, -(0.5 - gauss) * overlap, normal, lever, area});
+  add_cap_touches(overlap, r * other / (r + other), normal, -to_plane * normal, touches);
   return -overlap;
 }
 

@@ -18,6 +18,7 @@ struct EnergyLedger {
   double damping{0};    ///< lost to global damping [J]
   double body_work{0};  ///< done on it by body forces other than gravity [J]
   double wall_work{0};  ///< done on it by moving walls [J]
+  double fracture{0};   ///< lost as its bonds broke [J]
 
   EnergyLedger& operator+=(const EnergyLedger& b) {
     friction += b.friction;
@@ -25,6 +26,7 @@ struct EnergyLedger {
     damping += b.damping;
     body_work += b.body_work;
     wall_work += b.wall_work;
+    fracture += b.fracture;
     return *this;
   }
   friend bool operator==(const EnergyLedger&, const EnergyLedger&) = default;

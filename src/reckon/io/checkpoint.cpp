@@ -16,7 +16,7 @@
 namespace reckon {
 namespace {
 
-// 2 added departed grains, 3 driven walls and stages, 4 the membrane, 5 the cell.
+// 2 added departed grains, 3 driven walls and stages, 4 the membrane, 5 the cell and bonds.
 const Hdf5Kind kind{"checkpoint", 5};
 
 /// How the parts of the state lie in columns. The same walk fills columns from the state, and the
@@ -36,6 +36,18 @@ void walk_grain(Columns& columns, Grain& grain) {
   columns.number("lost_to_damping", "J", grain.ledger.damping);
   columns.number("work_of_body_forces", "J", grain.ledger.body_work);
   columns.number("work_of_walls", "J", grain.ledger.wall_work);
+  if (columns.has_since(5)) columns.number("lost_to_fracture", "J", grain.ledger.fracture);
+}
+
+template <class Columns, class Pair, class Cement>
+void walk_bond(Columns& columns, Pair& pair, Cement& bond) {
+  columns.id("id_a", pair.id_a);
+  columns.id("id_b", pair.id_b);
+  columns.vector("arm_a", "m", bond.arm_a);
+  columns.vector("arm_b", "m", bond.arm_b);
+  columns.quaternion("turn", bond.turn);
+  columns.vector("axis_a", "1", bond.axis_a);
+  columns.number("radius", "m", bond.radius);
 }
 
 template <class Columns, class Spring>
@@ -120,6 +132,8 @@ class Appender {
 
   /// To be called before each row.
   void begin_row() { next_ = first_; }
+  /// Whether the file has what came with this version of it.
+  [[nodiscard]] static bool has_since(unsigned /*version*/) { return true; }
 
   void number(const char* name, const char* unit, double value) { append(name, unit, {value}); }
   void vector(const char* name, const char* unit, const Vec3& v) {
@@ -215,6 +229,7 @@ class Extractor {
     row_ = row;
     next_ = 0;
   }
+  [[nodiscard]] bool has_since(unsigned version) const { return file_.version() >= version; }
   void number(const char* name, const char*, double& value) { value = take<double, 1>(name)[0]; }
   void vector(const char* name, const char*, Vec3& v) {
     const auto row = take<double, 3>(name);
@@ -311,6 +326,26 @@ void read_cell(const Hdf5Reader& file, std::optional<CellState>& cell) {
   }
 }
 
+/// Gives the pairs their bonds; both are sorted by ids.
+void read_bonds(const Hdf5Reader& file, SimulationState& state) {
+  const std::uint64_t rows = rows_of(file, "/bond/radius");
+  Extractor from{"/bond/", rows, file};
+  auto pair = state.pair_springs.begin();
+  for (std::size_t row = 0; row < rows; ++row) {
+    PairSprings wanted;
+    Bond bond;
+    from.begin_row(row);
+    walk_bond(from, wanted, bond);
+    pair = std::find_if(pair, state.pair_springs.end(), [&](const PairSprings& p) {
+      return p.id_a == wanted.id_a && p.id_b == wanted.id_b;
+    });
+    if (pair == state.pair_springs.end()) refuse(file, "a bond is of a pair that is not listed");
+    pair->bond = bond;
+  }
+  const auto broken = file.read<std::uint64_t>("/run/broken_bonds", {2});
+  state.broken_bonds = {broken[0], broken[1]};
+}
+
 void read_membrane(const Hdf5Reader& file, MembraneState& membrane) {
   membrane.nodes.resize(rows_of(file, "/membrane_node/position"));
   const std::uint64_t rows = rows_of(file, "/membrane/radius");
@@ -377,6 +412,17 @@ std::vector<CheckpointColumn> to_columns(const SimulationState& state) {
   const FlatSprings of_pairs = flatten(state.pair_springs);
   columns.push_back({"/pair/first_spring", "1", 1, of_pairs.first});
   append_springs("/pair_spring/", of_pairs, columns);
+  std::vector<PairSprings> bonded;
+  for (const PairSprings& pair : state.pair_springs) {
+    if (pair.bond) bonded.push_back({pair.id_a, pair.id_b, {}, pair.bond});
+  }
+  append_rows("/bond/", bonded.size(), columns, [&](Appender& to, std::size_t row) {
+    const PairSprings& pair = row_or_blank(bonded, row, no_pair);
+    const Bond bond = pair.bond.value_or(Bond{});
+    walk_bond(to, pair, bond);
+  });
+  columns.push_back({"/run/broken_bonds", "1", 1,
+                     std::vector{state.broken_bonds.in_tension, state.broken_bonds.in_shear}});
   const WallSprings no_contact;
   append_rows("/wall_contact/", state.wall_springs.size(), columns,
               [&](Appender& to, std::size_t row) {
@@ -469,6 +515,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
       [&](std::size_t row, std::vector<NodeSpring> springs) {
         state.pair_springs.push_back({GrainId{id_a[row]}, GrainId{id_b[row]}, std::move(springs)});
       });
+  if (file.version() >= 5) read_bonds(file, state);
   const std::uint64_t contacts = rows_of(file, "/wall_contact/grain");
   const auto grain = file.read<std::uint32_t>("/wall_contact/grain", {contacts});
   const auto wall = file.read<std::uint32_t>("/wall_contact/wall", {contacts});

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+
 #include "reckon/io/scene_key.hpp"
 #include "reckon/simulation/config.hpp"
 
@@ -56,6 +58,25 @@ void describe(Visitor& v, CylinderConfig& cylinder) {
             .required = true,
             .meaning = "Inner radius."},
            cylinder.radius);
+}
+
+template <class Visitor>
+void describe(Visitor& v, LedgeConfig& ledge) {
+  v.vector({.name = "point", .unit = "m", .required = true, .meaning = "A point of the edge."},
+           ledge.point);
+  v.vector({.name = "normal",
+            .unit = "1",
+            .required = true,
+            .meaning = "Out of the face beside the edge, to the grains; any length but zero."},
+           ledge.normal);
+  v.vector({.name = "top",
+            .unit = "1",
+            .required = true,
+            .meaning = "Out of the other face, at right angles to `normal`; any length but zero."},
+           ledge.top);
+  const double lengths = std::sqrt(squared_norm(ledge.normal) * squared_norm(ledge.top));
+  v.rule(lengths > 0 && std::abs(dot(ledge.normal, ledge.top)) <= 1e-12 * lengths,
+         {"normal", "top"}, "`normal` and `top` must be at right angles, and not zero");
 }
 
 }  // namespace reckon

@@ -178,6 +178,12 @@ void describe(Visitor& v, StageConfig& stage) {
                                "stage on that has this."},
                    stage.membrane,
                    [&](MembranePressureConfig& membrane) { describe(v, membrane); });
+  if (v.visits(stage.bond)) {  // not written when off: runs from before it go on
+    v.flag({.name = "bond",
+            .meaning = "Sets cement, which `[bond]` describes, between all grains that touch when "
+                       "the stage begins."},
+           stage.bond);
+  }
   v.tables({.name = "control",
             .standard = "walls stand still",
             .meaning = "Planes that move in this stage; others stand where the last stage left "

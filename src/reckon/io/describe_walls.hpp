@@ -55,7 +55,7 @@ void describe(Visitor& v, WallConfig& wall, const SceneConfig& scene) {
   std::size_t same_name = 0;
   for (const WallConfig& other : scene.walls) same_name += other.name == wall.name ? 1U : 0U;
   v.rule(same_name <= 1, {"name"}, "no two walls may have the same name");
-  v.one_of(Presence::exactly_one, {"plane", "box", "cylinder"}, wall.geometry.index(),
+  v.one_of(Presence::exactly_one, {"plane", "box", "cylinder", "ledge"}, wall.geometry.index(),
            [&](std::size_t which) {
              if (which == 0) {
                v.table({.name = "plane", .meaning = "A half space for grains to stay in."},
@@ -65,9 +65,14 @@ void describe(Visitor& v, WallConfig& wall, const SceneConfig& scene) {
                         .meaning = "Six planes that look inward, named NAME.x-, NAME.x+, NAME.y- "
                                    "and so on."},
                        [&] { describe(v, hold<BoxConfig>(wall.geometry)); });
-             } else {
+             } else if (which == 2) {
                v.table({.name = "cylinder", .meaning = "An endless cylinder around the grains."},
                        [&] { describe(v, hold<CylinderConfig>(wall.geometry)); });
+             } else {
+               v.table({.name = "ledge",
+                        .meaning = "A solid quarter of space with one straight edge: a half of a "
+                                   "shear box has one on each side."},
+                       [&] { describe(v, hold<LedgeConfig>(wall.geometry)); });
              }
            });
   const std::string_view unit = scene.contact.law == ContactLawKind::area ? "N/m^3" : "N/m";

@@ -94,6 +94,7 @@ void write_contact_lines(const std::filesystem::path& path, std::span<const Cont
   std::vector<std::uint32_t> partner;
   std::vector<std::uint32_t> nodes;
   std::vector<std::uint8_t> with_wall;
+  std::vector<std::uint8_t> bonded;
   for (const ContactRecord& contact : contacts) {
     ends.push_back(contact.from);
     ends.push_back(contact.to);
@@ -104,6 +105,7 @@ void write_contact_lines(const std::filesystem::path& path, std::span<const Cont
     partner.push_back(contact.partner);
     nodes.push_back(contact.touching);
     with_wall.push_back(contact.with_wall ? 1 : 0);
+    bonded.push_back(contact.bonded ? 1 : 0);
   }
   VtkPolyData data;
   data.points = vtk_array("Points", ends);
@@ -111,7 +113,7 @@ void write_contact_lines(const std::filesystem::path& path, std::span<const Cont
   data.cell_data = {vtk_array("force", force),         vtk_array("force_magnitude", magnitude),
                     vtk_array("grain", grain),         vtk_array("partner", partner),
                     vtk_array("with_wall", with_wall), vtk_array("deepest", deepest),
-                    vtk_array("nodes", nodes)};
+                    vtk_array("nodes", nodes),         vtk_array("bonded", bonded)};
   const std::vector<double> times{time};
   data.field_data = {vtk_array("TimeValue", times)};
   write_vtp(path, data);

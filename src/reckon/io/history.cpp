@@ -168,7 +168,7 @@ std::vector<HistoryColumn> history_columns(const HistoryLayout& layout) {
        "stepping"},
       {"grains", "grains in the simulation"},
       {"departed", "grains that left through an outflow since the start"},
-      {"contacts", "touching pairs of grains"},
+      {"contacts", "pairs of grains that touch or are bonded"},
       {"wall_contacts", "touching pairs of grain and wall"},
       {"touching_nodes", "nodes in contact"},
       {"coordination", "contacts per grain, walls included"},
@@ -192,6 +192,12 @@ std::vector<HistoryColumn> history_columns(const HistoryLayout& layout) {
     columns.push_back({"membrane_nodes", "nodes of the membrane that touch a grain"});
   }
   if (layout.cell) add_cell_columns(columns);
+  if (layout.bonds) {
+    columns.push_back({"bonds", "that hold"});
+    columns.push_back({"broken_in_tension", "bonds that broke in tension since the start"});
+    columns.push_back({"broken_in_shear", "bonds that broke in shear since the start"});
+    columns.push_back({"fracture_J", "energy that bonds lost which broke, since the start"});
+  }
   if (layout.stages) columns.push_back({"stage", "the stage under way, counted from 1"});
   if (layout.sample) add_sample_columns(columns);
   return columns;
@@ -204,14 +210,15 @@ std::string history_reference_markdown() {
       "names the columns; each name ends in its unit. Numbers are written so that they read back "
       "as the same bits. Energies add up as\n\n"
       "    translation + rotation + gravity + elastic + friction + dashpot + damping\n"
-      "      + departed - body_work - wall_work = constant + balance_error\n\n"
+      "      + fracture + departed - body_work - wall_work = constant + balance_error\n\n"
       "Columns `membrane_...` are there where the scene has a membrane, whose contacts, energies "
       "and "
       "work of pressure the other columns include. Columns `cell_...` are there where the scene "
       "has a "
       "periodic cell; then speeds, momentum and kinetic energies are those of motion against the "
-      "cell's own, and there are no forces on walls to make `wall_stress_...` of. Column `stage` "
-      "is there where the scene has "
+      "cell's own, and there are no forces on walls to make `wall_stress_...` of. Columns `bonds` "
+      "to `fracture_J` are there where it has a `[bond]`. Column `stage` is there where the scene "
+      "has "
       "stages; `volume_m3` and what follows where "
       "`output.sample` is true. The row at the last step of a stage belongs to that stage.\n\n"
       "This page is made by `reckon reference history`.\n\n"
@@ -240,6 +247,10 @@ std::string history_row(const HistoryRow& told) {
     row += fmt::format(",{},{},{}", m.membrane_pressure, m.membrane_stretch, m.membrane_nodes);
   }
   if (told.cell != nullptr) row += cell_cells(*told.cell);
+  if (told.bonds) {
+    row += fmt::format(",{},{},{},{}", m.bonds, m.broken_bonds.in_tension, m.broken_bonds.in_shear,
+                       e.fracture);
+  }
   if (told.stage) row += fmt::format(",{}", *told.stage);
   if (told.sample != nullptr) row += sample_cells(*told.sample);
   return row;

@@ -27,6 +27,7 @@ struct HistoryLayout {
   std::span<const Wall> walls;
   bool membrane{false};
   bool cell{false};
+  bool bonds{false};
   bool stages{false};  ///< the number of the stage
   bool sample{false};  ///< what SampleMeasurement holds
 };
@@ -37,11 +38,12 @@ struct HistoryRow {
   double energy_at_start{0};                 ///< EnergyBudget::total() at step 0 [J]
   bool membrane{false};                      ///< whether the layout has it
   const CellState* cell{nullptr};            ///< none where the layout has none
+  bool bonds{false};                         ///< likewise
   std::optional<std::uint64_t> stage{};      ///< counted from 1
   const SampleMeasurement* sample{nullptr};  ///< none where the layout has none
 };
 
-/// The columns of a run: fixed ones, three per wall, then those of membrane, cell, stages
+/// The columns of a run: fixed ones, three per wall, then those of membrane, cell, bonds, stages
 /// and sample.
 [[nodiscard]] std::vector<HistoryColumn> history_columns(const HistoryLayout& layout);
 

@@ -230,6 +230,7 @@ class Session {
       cell_ = simulation_.cell_state();
       row.cell = &cell_;
     }
+    row.bonds = config_.bond.has_value();
     if (has_stages()) row.stage = stage_index() + 1;
     if (config_.output.sample) row.sample = &sample_;
     return row;
@@ -283,8 +284,8 @@ class Session {
     report.energy_error = energy.total() - files_->energy_at_start();
     report.energy_turnover = energy.translation + energy.rotation + energy.elastic +
                              std::abs(energy.friction) + std::abs(energy.dashpot) +
-                             std::abs(energy.damping) + std::abs(energy.body_work) +
-                             std::abs(energy.wall_work);
+                             std::abs(energy.damping) + std::abs(energy.fracture) +
+                             std::abs(energy.body_work) + std::abs(energy.wall_work);
     report.checkpoint = files_->checkpoint_file();
     report.performance = files_->performance_text();
     if (has_stages()) report.stages = stage_report(config_, files_->history());

@@ -58,6 +58,13 @@ std::string row_name(const std::string& column, std::uint64_t row, const Simulat
     const PairSprings& pair = state.pair_springs[row];
     return fmt::format("pair of grains {} and {}", pair.id_a.get(), pair.id_b.get());
   }
+  if (column.starts_with("/bond/")) {
+    for (const PairSprings& pair : state.pair_springs) {
+      if (pair.bond && row-- == 0) {
+        return fmt::format("bond of grains {} and {}", pair.id_a.get(), pair.id_b.get());
+      }
+    }
+  }
   if (column.starts_with("/wall_contact/") && row < state.wall_springs.size()) {
     const WallSprings& contact = state.wall_springs[row];
     return fmt::format("grain {} on wall {}", contact.grain.get(), contact.wall.get());

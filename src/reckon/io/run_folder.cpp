@@ -18,7 +18,7 @@
 namespace reckon {
 namespace {
 
-constexpr std::array field_kinds{"grains", "contacts", "surfaces", "membrane"};
+constexpr std::array field_kinds{"grains", "contacts", "surfaces", "membrane", "strain"};
 
 /// Steps of all files "PREFIX<digits>SUFFIX" in a folder, ascending.
 std::vector<std::uint64_t> numbered_files(const std::filesystem::path& folder,
@@ -102,8 +102,8 @@ void RunFolder::remove_run() const {
     }
     std::filesystem::remove(index(kind));
   }
-  for (const auto& file :
-       {scene(), resolved(), history(), log(), json(), performance(), report()}) {
+  for (const auto& file : {scene(), resolved(), history(), log(), json(), performance(), report(),
+                           root_ / "force_distribution.csv"}) {
     std::filesystem::remove(file);
   }
 }

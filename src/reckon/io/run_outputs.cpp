@@ -31,7 +31,8 @@ RunOutputs::RunOutputs(RunFolder folder, const LoadedScene& scene, const Prepare
       time_step_{prepared.time_step.step},
       history_{folder_.history(),
                {prepared.setup.walls, prepared.setup.membrane.has_value(),
-                prepared.setup.cell.has_value(), !prepared.setup.stages.empty(), config_.sample},
+                prepared.setup.cell.has_value(), prepared.setup.contact.bond.has_value(),
+                !prepared.setup.stages.empty(), config_.sample},
                rows_to_keep(schedule_, resumed_at)} {
   if (!resumed_at) return;
   take_over("grains", *resumed_at, grains_);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "reckon/core/error.hpp"
@@ -108,6 +109,8 @@ void read_contacts(const std::filesystem::path& path, SavedFields& fields) {
   const Column force = column("force", 3);
   const Column deepest = column("deepest", 1);
   const Column nodes = column("nodes", 1);
+  std::optional<Column> bonded;  // files from before bonds have none
+  if (file.has(VtkSection::cell_data, "bonded")) bonded.emplace(column("bonded", 1));
   const auto is_grain = [&](std::uint32_t id) {
     const auto found =
         std::lower_bound(fields.grains.begin(), fields.grains.end(), GrainId{id},
@@ -116,10 +119,10 @@ void read_contacts(const std::filesystem::path& path, SavedFields& fields) {
   };
   fields.contacts.reserve(rows);
   for (std::size_t row = 0; row < rows; ++row) {
-    const ContactRecord contact{GrainId{grain.whole(row)}, with_wall.whole(row) != 0,
-                                partner.whole(row),        ends.vector(2 * row),
-                                ends.vector(2 * row + 1),  force.vector(row),
-                                deepest.number(row),       nodes.whole(row)};
+    const ContactRecord contact{
+        GrainId{grain.whole(row)}, with_wall.whole(row) != 0, partner.whole(row),
+        ends.vector(2 * row),      ends.vector(2 * row + 1),  force.vector(row),
+        deepest.number(row),       nodes.whole(row),          bonded && bonded->whole(row) != 0};
     if (!is_grain(contact.grain.get()) || (!contact.with_wall && !is_grain(contact.partner))) {
       refuse(path, "a contact names a grain that does not exist");
     }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "reckon/io/describe_bond.hpp"
 #include "reckon/io/describe_cell.hpp"
 #include "reckon/io/describe_grains.hpp"
 #include "reckon/io/describe_stages.hpp"
@@ -295,6 +296,11 @@ void describe(Visitor& v, SceneConfig& scene) {
           [&] { describe(v, scene.material); });
   v.table({.name = "contact", .meaning = "How touching grains push."},
           [&] { describe(v, scene.contact); });
+  v.optional_table({.name = "bond",
+                    .standard = "none",
+                    .meaning = "Cement that joins grains, beside the law of their contact, from "
+                               "the beginning of a stage with `bond = true` until it breaks."},
+                   scene.bond, [&](BondConfig& bond) { describe(v, bond, scene.contact); });
   v.table({.name = "body", .meaning = "Forces on every grain other than contacts."},
           [&] { describe(v, scene.body); });
   v.tables({.name = "grains", .required = true, .meaning = "A set of grains; ids run on."},

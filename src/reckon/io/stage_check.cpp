@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "reckon/boundary/enclosure.hpp"
@@ -23,6 +24,7 @@ StageCheck::StageCheck(const LoadedScene& scene, Fault fault)
 void StageCheck::run() {
   check_membrane();
   if (scene_.cell) check_cell(loaded_);
+  check_bonds();
   for (std::size_t n = 0; n < scene_.stages.size(); ++n) {
     const StageConfig& stage = scene_.stages[n];
     const std::string key = fmt::format("stage[{}]", n);
@@ -113,6 +115,29 @@ void StageCheck::check_membrane() {
     fault_("membrane.spacing",
            fmt::format("makes {:.3g} nodes, more than {:.0g}", nodes, most_nodes),
            "A third of a grain's diameter is good.");
+  }
+}
+
+void StageCheck::check_bonds() {
+  const auto& stages = scene_.stages;
+  const auto setting = std::find_if(stages.begin(), stages.end(),
+                                    [](const StageConfig& stage) { return stage.bond; });
+  if (!scene_.bond) {
+    if (setting == stages.end()) return;
+    return fault_(fmt::format("stage[{}].bond", setting - stages.begin()),
+                  "sets cement that the scene does not describe", "Add a table [bond].");
+  }
+  if (setting == stages.end()) {
+    fault_("bond", "is never set", "Add `bond = true` to the stage at whose start grains join.");
+  }
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const ShapeSummary& shape : loaded_.shapes) {
+    smallest = std::min(smallest, shape.outline.bounding_radius);
+  }
+  if (const double gap = make_bond_law(scene_)->longest_gap(); gap > smallest) {
+    fault_("bond",
+           fmt::format("opens by {:.3g} m before it breaks, more than the radius of a grain", gap),
+           "Raise the stiffnesses or lower the strengths: it breaks at strength over stiffness.");
   }
 }
 

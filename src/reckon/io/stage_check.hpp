@@ -30,6 +30,7 @@ class StageCheck {
   void check_room_in_cell(const LoadedScene& scene);
   void check_cell_control(const ControlConfig& control, const std::string& key,
                           std::vector<bool>& driven);
+  void check_bonds();
   void check_goal(const StageConfig& stage, const std::string& key);
   [[nodiscard]] std::string known_planes() const;
 

@@ -95,6 +95,8 @@ void add_walls(const SceneConfig& scene, JsonWriter& json) {
       add_vector(json, "point", cylinder->point);
       add_vector(json, "axis", cylinder->axis_unit);
       json.value("radius", cylinder->radius);
+    } else if (const auto* ledge = std::get_if<LedgeSurface>(&wall.surface)) {
+      add_vector(json, "point", ledge->point);  // not drawn: it would hide the grains
     }
     json.end();
   }

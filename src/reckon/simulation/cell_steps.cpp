@@ -28,8 +28,8 @@ CellReaction reaction_of(const PairForce& pair, const Vec3& d) {
   const Vec3& f = pair.force_on_a;
   const Vec3 squares = hadamard(d, d);
   return {{hadamard(f, d), f.x * d.y, f.x * d.z, f.y * d.z},
-          pair.stiffness * squares,
-          pair.damping * squares};
+          double{pair.stiffness} * squares,
+          double{pair.damping} * squares};
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ CellReaction Simulation::cell_reaction() const {
     CellReaction own;
     for (const auto& entry : grain_contacts_.pairs_of_grain().of(slot)) {
       const PairForce& pair = forces[entry.pair];
-      if (entry.is_a && pair.touching > 0) {
+      if (entry.is_a && pair.holds()) {
         own += reaction_of(pair, branch(grain_contacts_.pairs()[entry.pair]));
       }
     }

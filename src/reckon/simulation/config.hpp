@@ -48,6 +48,15 @@ struct ContactConfig {
   MasterRule master{MasterRule::lower_id};
 };
 
+/// Cement between grains; see contact/bond_law.hpp.
+struct BondConfig {
+  std::optional<double> normal_stiffness;  ///< [N/m^3], > 0; law area: the contact's by default
+  std::optional<double> shear_stiffness;   ///< [N/m^3], > 0; default: 0.4 of the normal one
+  double tensile_strength{0};              ///< [Pa], > 0, no default
+  double shear_strength{0};                ///< [Pa], > 0, no default
+  double radius_share{0.5};  ///< of the smaller grain's sphere of equal volume, in (0, 1]
+};
+
 /// Forces on every grain other than contacts.
 struct BodyForceConfig {
   Vec3 gravity;                      ///< [m/s^2]
@@ -75,9 +84,16 @@ struct CylinderConfig {
   double radius{0};  ///< [m]
 };
 
+/// A solid quarter of space with one straight edge: a half of a shear box has one on each side.
+struct LedgeConfig {
+  Vec3 point;   ///< on the edge [m]
+  Vec3 normal;  ///< out of the face beside the edge; any length
+  Vec3 top;     ///< out of the other face, at right angles to it; any length
+};
+
 struct WallConfig {
   std::string name;
-  std::variant<PlaneConfig, BoxConfig, CylinderConfig> geometry;
+  std::variant<PlaneConfig, BoxConfig, CylinderConfig, LedgeConfig> geometry;
   std::optional<double> friction;          ///< default: the material's
   std::optional<double> normal_stiffness;  ///< default: the contact's
   std::optional<double> shear_stiffness;   ///< default: the contact's
@@ -196,6 +212,7 @@ struct StageConfig {
   std::optional<std::uint64_t> fields_interval;
   /// From the first stage on that has it, the membrane is in place.
   std::optional<MembranePressureConfig> membrane;
+  bool bond{false};  ///< grains that touch when it begins are cemented
   std::vector<ControlConfig> controls;
 };
 
@@ -224,6 +241,7 @@ struct SceneConfig {
   std::uint64_t seed{1};
   MaterialConfig material;
   ContactConfig contact;
+  std::optional<BondConfig> bond;
   BodyForceConfig body;
   std::vector<WallConfig> walls;
   std::optional<MembraneConfig> membrane;

@@ -26,6 +26,7 @@ void pack_springs(Bytes& bytes, const PairSprings& pair) {
   pack(bytes, pair.id_a);
   pack(bytes, pair.id_b);
   pack<NodeSpring>(bytes, pair.springs);
+  pack<Bond>(bytes, std::span{pair.bond ? &*pair.bond : nullptr, pair.bond ? 1U : 0U});
 }
 
 void pack_springs(Bytes& bytes, const WallSprings& entry) {
@@ -153,6 +154,7 @@ void Distribution::redistribute(Grains& grains, GrainContacts& grain_contacts,
         pair.id_a = message.take<GrainId>();
         pair.id_b = message.take<GrainId>();
         pair.springs = message.take_all<NodeSpring>();
+        for (const Bond& bond : message.take_all<Bond>()) pair.bond = bond;
       }
       grain_contacts.adopt(pairs);
       std::vector<WallSprings> walls(static_cast<std::size_t>(message.take<std::uint64_t>()));
@@ -192,14 +194,16 @@ void Distribution::start_update(const Grains& grains) {
 void Distribution::finish_update() { ghosts_->finish(); }
 
 std::vector<Pair> Distribution::find_pairs(std::span<const GrainFrame> frames,
-                                           const MotionBudget& budget, std::size_t owned) const {
+                                           const MotionBudget& budget, double gap,
+                                           std::size_t owned) const {
   std::vector<GrainId> ids;
   std::vector<Vec3> positions;
   std::vector<double> radii;
   for (const GrainFrame& frame : frames) {
     ids.push_back(frame.id);
     positions.push_back(frame.position);
-    radii.push_back(frame.shape->bounding_radius + budget.of(frame.velocity, frame.position));
+    radii.push_back(frame.shape->bounding_radius + budget.of(frame.velocity, frame.position) +
+                    0.5 * gap);
   }
   constexpr double skin = 0;  // the radii have it
   if (cell_) {

@@ -54,9 +54,11 @@ class Distribution {
   void finish_update();
   [[nodiscard]] std::span<const BorderGrain> ghosts() const { return ghosts_->ghosts(); }
 
-  /// Pairs of near grains with at least one owned; `frames` holds owned grains, then ghosts.
+  /// Pairs of near grains with at least one owned; `frames` holds owned grains, then ghosts. Those
+  /// are near whose spheres will not be farther apart than `gap` [m].
   [[nodiscard]] std::vector<Pair> find_pairs(std::span<const GrainFrame> frames,
-                                             const MotionBudget& budget, std::size_t owned) const;
+                                             const MotionBudget& budget, double gap,
+                                             std::size_t owned) const;
 
   [[nodiscard]] const CommunicationCounters& counters() const { return counters_; }
 

@@ -50,6 +50,8 @@ std::vector<Entry> gather_springs(const Communicator& ranks, const std::vector<E
 struct PairKey {
   GrainId a, b;
   std::uint64_t count;
+  bool bonded;
+  Bond bond;
 };
 struct WallKey {
   GrainId grain;
@@ -97,10 +99,13 @@ SimulationState Simulation::state() {
   state.pair_springs = gather_springs<PairSprings, PairKey>(
       ranks, own_springs,
       [](const PairSprings& p) {
-        return PairKey{p.id_a, p.id_b, p.springs.size()};
+        return PairKey{p.id_a, p.id_b, p.springs.size(), p.bond.has_value(),
+                       p.bond.value_or(Bond{})};
       },
       [](const PairKey& key) {
-        return PairSprings{key.a, key.b, {}};
+        PairSprings pair{key.a, key.b, {}};
+        if (key.bonded) pair.bond = key.bond;
+        return pair;
       });
   state.wall_springs = gather_springs<WallSprings, WallKey>(
       ranks, wall_contacts_.springs(),
@@ -111,6 +116,10 @@ SimulationState Simulation::state() {
         return WallSprings{key.grain, key.wall, {}};
       });
   state.departed = gather(ranks, departed_);
+  for (const BrokenBonds& broken : gather(ranks, std::vector{grain_contacts_.broken_bonds()})) {
+    state.broken_bonds.in_tension += broken.in_tension;
+    state.broken_bonds.in_shear += broken.in_shear;
+  }
   if (ranks.is_root()) {
     state.driven_walls = driven_walls_;
     state.stage_starts = stage_starts_;
@@ -149,7 +158,7 @@ std::vector<ContactRecord> Simulation::contacts() {
   for (std::size_t p = 0; p < grain_contacts_.pairs().size(); ++p) {
     const PairForce& force = grain_contacts_.forces()[p];
     const Pair& pair = grain_contacts_.pairs()[p];
-    if (force.touching == 0 || pair.slot_a >= grains_.size()) continue;
+    if (!force.holds() || pair.slot_a >= grains_.size()) continue;
     Vec3 from = frames_[pair.slot_a].position;
     Vec3 to = frames_[pair.slot_b].position;
     if (cell_) {
@@ -157,7 +166,7 @@ std::vector<ContactRecord> Simulation::contacts() {
       to = from - branch(pair);
     }
     records.push_back({pair.id_a, false, pair.id_b.get(), from, to, force.force_on_a, force.deepest,
-                       force.touching});
+                       force.touching, force.bonded});
   }
   for (std::size_t c = 0; c < wall_contacts_.candidates().size(); ++c) {
     const WallForce& force = wall_contacts_.forces()[c];

@@ -14,26 +14,31 @@ namespace {
 /// What is summed over all grains, pairs and walls.
 struct Sums {
   ExactSum translation, rotation, gravity, elastic;
-  ExactSum friction, dashpot, damping, body_work, wall_work, departed_energy;
+  ExactSum friction, dashpot, damping, fracture, body_work, wall_work, departed_energy;
   ExactSum net_force, contact_force, stretch;
   ExactVec3 momentum;
   std::vector<ExactVec3> on_walls;
   std::int64_t grains{0}, departed{0}, contacts{0}, wall_contacts{0}, touching_nodes{0};
+  std::int64_t bonds{0}, broken_in_tension{0}, broken_in_shear{0};
 
   /// Adds up what all ranks hold, digit by digit.
   void reduce(const Communicator& ranks) {
-    std::vector<ExactSum*> exact{&translation, &rotation,   &gravity,         &elastic,
-                                 &friction,    &dashpot,    &damping,         &body_work,
-                                 &wall_work,   &net_force,  &contact_force,   &momentum.x,
-                                 &momentum.y,  &momentum.z, &departed_energy, &stretch};
+    std::vector<ExactSum*> exact{
+        &translation, &rotation,   &gravity,         &elastic,   &friction,      &dashpot,
+        &damping,     &body_work,  &wall_work,       &net_force, &contact_force, &momentum.x,
+        &momentum.y,  &momentum.z, &departed_energy, &stretch,   &fracture};
     for (ExactVec3& wall : on_walls) wall.list(exact);
-    std::array<std::int64_t, 5> counts{grains, contacts, wall_contacts, touching_nodes, departed};
+    std::array<std::int64_t, 8> counts{grains,   contacts, wall_contacts,     touching_nodes,
+                                       departed, bonds,    broken_in_tension, broken_in_shear};
     add_up(ranks, exact, counts);
     grains = counts[0];
     contacts = counts[1];
     wall_contacts = counts[2];
     touching_nodes = counts[3];
     departed = counts[4];
+    bonds = counts[5];
+    broken_in_tension = counts[6];
+    broken_in_shear = counts[7];
   }
 };
 
@@ -41,15 +46,16 @@ void add_ledger(Sums& sums, const EnergyLedger& ledger) {
   sums.friction.add(ledger.friction);
   sums.dashpot.add(ledger.dashpot);
   sums.damping.add(ledger.damping);
+  sums.fracture.add(ledger.fracture);
   sums.body_work.add(ledger.body_work);
   sums.wall_work.add(ledger.wall_work);
 }
 
 EnergyBudget budget(const Sums& sums) {
-  return {sums.translation.value(),    sums.rotation.value(),  sums.gravity.value(),
-          sums.elastic.value(),        sums.friction.value(),  sums.dashpot.value(),
-          sums.damping.value(),        sums.body_work.value(), sums.wall_work.value(),
-          sums.departed_energy.value()};
+  return {sums.translation.value(), sums.rotation.value(),       sums.gravity.value(),
+          sums.elastic.value(),     sums.friction.value(),       sums.dashpot.value(),
+          sums.damping.value(),     sums.fracture.value(),       sums.body_work.value(),
+          sums.wall_work.value(),   sums.departed_energy.value()};
 }
 
 }  // namespace
@@ -87,8 +93,9 @@ Measurement Simulation::measure() {
   for (std::size_t p = 0; p < grain_contacts_.pairs().size(); ++p) {
     const PairForce& pair = grain_contacts_.forces()[p];
     // A pair that two ranks share is counted by the owner of its first grain.
-    if (pair.touching == 0 || grain_contacts_.pairs()[p].slot_a >= grains_.size()) continue;
+    if (!pair.holds() || grain_contacts_.pairs()[p].slot_a >= grains_.size()) continue;
     ++sums.contacts;
+    if (pair.bonded) ++sums.bonds;
     sums.touching_nodes += pair.touching;
     sums.elastic.add(pair.elastic);
     sums.contact_force.add(norm(pair.force_on_a));
@@ -134,6 +141,8 @@ Measurement Simulation::measure() {
   }
   sums.grains = static_cast<std::int64_t>(grains_.size());
   sums.departed = static_cast<std::int64_t>(departed_.size());
+  sums.broken_in_tension = static_cast<std::int64_t>(grain_contacts_.broken_bonds().in_tension);
+  sums.broken_in_shear = static_cast<std::int64_t>(grain_contacts_.broken_bonds().in_shear);
   const Communicator& ranks = distribution_.ranks();
   sums.reduce(ranks);
   result.deepest_overlap = ranks.max(result.deepest_overlap);
@@ -144,6 +153,9 @@ Measurement Simulation::measure() {
   result.contacts = static_cast<std::uint64_t>(sums.contacts);
   result.wall_contacts = static_cast<std::uint64_t>(sums.wall_contacts);
   result.touching_nodes = static_cast<std::uint64_t>(sums.touching_nodes);
+  result.bonds = static_cast<std::uint64_t>(sums.bonds);
+  result.broken_bonds = {static_cast<std::uint64_t>(sums.broken_in_tension),
+                         static_cast<std::uint64_t>(sums.broken_in_shear)};
   result.energy = budget(sums);
   if (cell_) result.energy.wall_work += cell_work_now();
   result.momentum = sums.momentum.value();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "reckon/contact/grain_contacts.hpp"
 #include "reckon/math/vec3.hpp"
 
 namespace reckon {
@@ -18,14 +19,15 @@ struct EnergyBudget {
   double friction{0};     ///< lost to sliding [J]
   double dashpot{0};      ///< lost to contact dashpots [J]
   double damping{0};      ///< lost to global damping [J]
+  double fracture{0};     ///< lost as bonds broke [J]
   double body_work{0};    ///< come in through body forces other than gravity [J]
   double wall_work{0};    ///< come in through moving walls and prescribed grains [J]
   double departed{0};     ///< carried away by grains that left [J]
 
   /// Stored plus lost minus come in: constant, up to the error of the time stepping [J].
   [[nodiscard]] double total() const {
-    return translation + rotation + gravity + elastic + friction + dashpot + damping + departed -
-           body_work - wall_work;
+    return translation + rotation + gravity + elastic + friction + dashpot + damping + fracture +
+           departed - body_work - wall_work;
   }
   friend bool operator==(const EnergyBudget&, const EnergyBudget&) = default;
 };
@@ -50,6 +52,8 @@ struct Measurement {
   double membrane_pressure{0};      ///< [Pa]
   double membrane_stretch{0};       ///< energy in its bonds, part of `elastic` [J]
   std::uint64_t membrane_nodes{0};  ///< of it that touch a grain
+  std::uint64_t bonds{0};           ///< that hold
+  BrokenBonds broken_bonds;
 
   friend bool operator==(const Measurement&, const Measurement&) = default;
 };

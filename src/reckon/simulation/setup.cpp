@@ -47,9 +47,14 @@ std::vector<std::pair<std::string, WallSurface>> surfaces(const WallConfig& wall
   if (const auto* cylinder = std::get_if<CylinderConfig>(&wall.geometry)) {
     return {{"", CylinderSurface{cylinder->point, normalized(cylinder->axis), cylinder->radius}}};
   }
+  if (const auto* ledge = std::get_if<LedgeConfig>(&wall.geometry)) {
+    return {{"", LedgeSurface{ledge->point, normalized(ledge->normal), normalized(ledge->top)}}};
+  }
   const auto sides = box_sides(std::get<BoxConfig>(wall.geometry));
   return {sides.begin(), sides.end()};
 }
+
+constexpr double bond_shear_share = 0.4;  // of the normal stiffness, unless given
 
 /// Of the membrane's nodes: leapfrog keeps their fastest oscillations stable with a wide margin.
 constexpr double membrane_phase = 0.5;     // radians per step
@@ -58,6 +63,14 @@ constexpr double membrane_dashpot = 0.3;   // of what would be critical for a no
 constexpr double membrane_softness = 0.1;  // of the stiffness of grains, unless given
 
 }  // namespace
+
+std::optional<BondLaw> make_bond_law(const SceneConfig& scene) {
+  if (!scene.bond) return std::nullopt;
+  const BondConfig& config = *scene.bond;
+  const double normal = config.normal_stiffness.value_or(scene.contact.normal_stiffness);
+  return BondLaw{normal, config.shear_stiffness.value_or(bond_shear_share * normal),
+                 config.tensile_strength, config.shear_strength, config.radius_share};
+}
 
 std::optional<MembraneSetup> make_membrane(const SceneConfig& scene, std::span<const Wall> walls,
                                            double time_step) {
@@ -152,7 +165,7 @@ PreparedScene prepare(const LoadedScene& scene, const Communicator& ranks) {
       .contact = {make_law(config.contact, config.contact.normal_stiffness,
                            config.contact.shear_stiffness, true,
                            config.contact.node_cap.value_or(0), false),
-                  config.material.friction, config.contact.master},
+                  config.material.friction, config.contact.master, make_bond_law(config)},
       .walls = make_walls(config),
       .membrane = {},
       .cell = {},

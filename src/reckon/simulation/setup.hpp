@@ -40,6 +40,8 @@ struct PreparedScene {
 
 /// By axis.
 [[nodiscard]] std::array<bool, 3> periodic_axes(const CellConfig& cell);
+/// The cement of a scene, if it has some.
+[[nodiscard]] std::optional<BondLaw> make_bond_law(const SceneConfig& scene);
 
 /// The membrane of a scene whose mould is one of the walls. Its mass, and what the scene leaves
 /// open of its stiffness and damping, follow from the time step.

@@ -50,11 +50,13 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
   for (const GrainState& grain : state.grains) grains_.push_back(grain);
   take_over_cell(state);
   grain_contacts_.adopt(state.pair_springs);
+  grain_contacts_.adopt(state.broken_bonds);
   wall_contacts_.adopt(state.wall_springs);
   departed_ = state.departed;
   take_over_membrane(state);
-  take_over_walls_and_stages(state);
+  const bool first_stage_begins = take_over_walls_and_stages(state);
   costs_.assign(grains_.size(), 1.0);
+  if (first_stage_begins) set_bonds();
 }
 
 void Simulation::step() {
@@ -86,7 +88,7 @@ void Simulation::bring_up_to_date() {
   if (lists_are_stale_) {
     let_grains_out();
     if (cell_) budget_.gradient = cell_->gradient();
-    list_reach_ = 2 * (largest_radius_ + largest_budget());
+    list_reach_ = 2 * (largest_radius_ + largest_budget()) + longest_gap();
     if (cell_) require_wide_cell(list_reach_);
     distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_, costs_,
                                list_reach_, cell());
@@ -181,7 +183,7 @@ void Simulation::update_ghost_frames() {
 }
 
 void Simulation::rebuild_lists() {
-  grain_contacts_.rebuild(distribution_.find_pairs(frames_, budget_, grains_.size()),
+  grain_contacts_.rebuild(distribution_.find_pairs(frames_, budget_, longest_gap(), grains_.size()),
                           frames_.size());
   wall_contacts_.rebuild(owned_frames(), budget_);
   membrane_contacts_.forget();
@@ -238,6 +240,11 @@ double Simulation::largest_budget() const {
       parallel_max(grains_.size(), budget_.least, [&](std::size_t slot) {
         return budget_.of(grains_.velocity[slot], grains_.position[slot]);
       }));
+}
+
+/// Between the faces of a bond: its grains must see each other though they do not touch [m].
+double Simulation::longest_gap() const {
+  return setup_.contact.bond ? setup_.contact.bond->longest_gap() : 0;
 }
 
 /// Whether some grain of this rank, or some wall, has moved as far as it was listed for.

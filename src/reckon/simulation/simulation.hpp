@@ -44,6 +44,7 @@ struct StageSetup {
   std::vector<WallControl> controls;
   std::vector<CellControl> cell_controls;
   std::optional<MembranePressure> membrane;  ///< none: not in place yet
+  bool sets_bonds{false};                    ///< at its start, where grains touch
 };
 
 /// A periodic cell at the start.
@@ -94,6 +95,7 @@ struct SimulationState {
   std::vector<std::uint64_t> stage_starts;
   MembraneState membrane;
   std::optional<CellState> cell;  ///< none at the start
+  BrokenBonds broken_bonds;
 
   friend bool operator==(const SimulationState&, const SimulationState&) = default;
 };
@@ -109,6 +111,7 @@ struct ContactRecord {
   Vec3 force;         ///< on `grain` [N]
   double deepest{0};  ///< largest penetration of a node [m]
   std::uint32_t touching{0};  ///< nodes
+  bool bonded{false};         ///< and the bond holds; its force is in `force`
 
   friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
 };
@@ -203,9 +206,11 @@ class Simulation {
     return std::span{frames_}.first(grains_.size());
   }
   void sum_loads(std::span<EnergyLedger> ledgers);
-  void take_over_walls_and_stages(const SimulationState& state);
+  /// Returns whether the first stage begins here.
+  bool take_over_walls_and_stages(const SimulationState& state);
   void take_over_membrane(const SimulationState& state);
   void apply_stage();
+  void set_bonds();
   void let_membrane_take_place();
   [[nodiscard]] double membrane_pressure() const;
   void evaluate_membrane();
@@ -225,6 +230,7 @@ class Simulation {
   void agree_on_what_comes();
 
   [[nodiscard]] double largest_budget() const;
+  [[nodiscard]] double longest_gap() const;
   [[nodiscard]] bool some_budget_is_used_up() const;
   [[nodiscard]] bool is_out(std::size_t slot) const;
   [[nodiscard]] bool motion_is_finite(std::size_t slot) const;

@@ -91,6 +91,7 @@ std::vector<StageSetup> make_stages(const SceneConfig& scene, std::span<const Wa
     } else if (!stages.empty() && stages.back().membrane) {
       stage.membrane = MembranePressure{stages.back().membrane->pressure, 0};
     }
+    stage.sets_bonds = config.bond;
     for (const Wall& wall : walls) {
       stage.wall_friction.push_back(config.wall_friction.value_or(wall.friction));
     }

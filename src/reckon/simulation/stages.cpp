@@ -23,7 +23,7 @@ std::optional<Enclosure> inside(const PeriodicCell& cell, const UpperMat3& edges
 }  // namespace
 
 /// The root's walls and stages become everybody's.
-void Simulation::take_over_walls_and_stages(const SimulationState& state) {
+bool Simulation::take_over_walls_and_stages(const SimulationState& state) {
   const Communicator& ranks = distribution_.ranks();
   Bytes bytes;
   if (ranks.is_root()) {
@@ -43,8 +43,10 @@ void Simulation::take_over_walls_and_stages(const SimulationState& state) {
                  .fix = "Go on with the scene that it came from."}};
   }
   driven_walls_.resize(setup_.walls.size());
-  if (!setup_.stages.empty() && stage_starts_.empty()) stage_starts_ = {step_};
+  const bool begins = !setup_.stages.empty() && stage_starts_.empty();
+  if (begins) stage_starts_ = {step_};
   apply_stage();
+  return begins;
 }
 
 void Simulation::apply_stage() {
@@ -68,6 +70,7 @@ void Simulation::begin_next_stage() {
   for (DrivenWall& wall : driven_walls_) wall.displacement_at_stage_start = wall.displacement;
   if (cell_) begin_stage_of_cell();
   apply_stage();
+  set_bonds();
   // Turning gravity lifts or drops every grain's potential: someone's work.
   const Vec3 turned = setup_.body_force.gravity - gravity_before;
   if (turned == Vec3{}) return;
@@ -78,6 +81,14 @@ void Simulation::begin_next_stage() {
     const double mass = setup_.density * shapes_[gone.grain.shape.get()].mass.volume;
     gone.grain.ledger.body_work -= mass * dot(turned, gone.grain.position);
   }
+}
+
+/// Where the stage that begins wants them, and grains touch at this very step.
+void Simulation::set_bonds() {
+  if (stage() == nullptr || !stage()->sets_bonds) return;
+  bring_up_to_date();
+  evaluate_contacts();
+  grain_contacts_.set_bonds(frames_);
 }
 
 std::optional<Enclosure> Simulation::space() const {

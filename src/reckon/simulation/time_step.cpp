@@ -6,10 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "reckon/simulation/setup.hpp"
+
 namespace reckon {
 namespace {
 
 constexpr double touching_share = 0.05;  // of a grain's surface or nodes
+constexpr double bonds_of_grain = 6;     // in a dense packing
 
 double contact_stiffness(const ContactConfig& contact, double normal_stiffness, bool capped,
                          const ShapeSummary& shape) {
@@ -26,6 +29,12 @@ double contact_stiffness(const ContactConfig& contact, double normal_stiffness, 
   return normal_stiffness * std::max(nodes, 1.0);
 }
 
+double bond_stiffness(const BondLaw& cement, const ShapeSummary& shape) {
+  const double radius = cement.bond_radius(sphere_radius_of(shape.outline.mass.volume));
+  return std::max(cement.normal_stiffness, cement.shear_stiffness) * std::numbers::pi * radius *
+         radius;
+}
+
 }  // namespace
 
 TimeStepChoice choose_time_step(const SceneConfig& scene, std::span<const GrainState> grains,
@@ -35,9 +44,11 @@ TimeStepChoice choose_time_step(const SceneConfig& scene, std::span<const GrainS
     normal_stiffness = std::max(normal_stiffness, wall.normal_stiffness.value_or(0));
   }
   const bool capped = scene.contact.node_cap && scene.walls.empty();  // walls know no cap
+  const std::optional<BondLaw> cement = make_bond_law(scene);
   std::vector<double> stiffness;
   for (const ShapeSummary& shape : shapes) {
     stiffness.push_back(contact_stiffness(scene.contact, normal_stiffness, capped, shape));
+    if (cement) stiffness.back() += bonds_of_grain * bond_stiffness(*cement, shape);
   }
   TimeStepChoice choice;
   double slowest = std::numeric_limits<double>::infinity();

@@ -35,6 +35,51 @@ TEST(Enclosure, BoxIsTheProductOfItsSides) {
   EXPECT_EQ(space->areas, (std::vector<double>{20, 20, 15, 15, 12, 12}));
 }
 
+/// Halves that have slid past each other keep the volume; where they overlap counts half-way.
+TEST(Enclosure, ShearBoxIsTheSumOfItsHalves) {
+  const auto ledge = [](const Vec3& point, const Vec3& normal, const Vec3& top) {
+    return Wall{"ledge", LedgeSurface{point, normal, top}, AreaLaw{1, 1, 0, 0}, 0, false, {}};
+  };
+  const auto shear_box = [&](const Mat3& turn) {
+    const auto placed = [&](const Vec3& point, const Vec3& normal) {
+      return plane(turn * point, turn * normal);
+    };
+    const auto turned = [&](const Vec3& point, const Vec3& normal, const Vec3& top) {
+      return ledge(turn * point, turn * normal, turn * top);
+    };
+    return std::vector<Wall>{placed({0, 0, -2}, {0, 0, 1}),
+                             placed({0, 0, 3}, {0, 0, -1}),
+                             placed({0, 0, 0}, {0, 1, 0}),
+                             placed({0, 4, 0}, {0, -1, 0}),
+                             turned({0, 0, 0.1}, {1, 0, 0}, {0, 0, 1}),
+                             turned({6, 0, 0.1}, {-1, 0, 0}, {0, 0, 1}),
+                             turned({0, 0, -0.1}, {1, 0, 0}, {0, 0, -1}),
+                             turned({6, 0, -0.1}, {-1, 0, 0}, {0, 0, -1})};
+  };
+  const Mat3 askew = rotation_matrix(normalized(Quaternion{0.8, 0.1, -0.3, 0.4}));
+  for (const Mat3& turn : {Mat3{}, askew}) {
+    const std::vector<Wall> walls = shear_box(turn);
+    std::vector<WallPose> poses(8);
+    poses[6].displacement = poses[7].displacement = turn * Vec3{1.5, 0, 0};
+    poses[1].displacement = turn * Vec3{1.5, 0, -0.5};
+    const auto space = enclosure_of(walls, poses);
+    ASSERT_TRUE(space.has_value());
+    EXPECT_NEAR(space->volume, 6 * 4 * 4.5, 1e-9);
+    ASSERT_EQ(space->areas.size(), 8U);
+    EXPECT_NEAR(space->areas[0], 24, 1e-9);
+    EXPECT_NEAR(space->areas[1], 24, 1e-9);
+    EXPECT_NEAR(space->areas[2], 6 * 4.5, 1e-9);
+    EXPECT_NEAR(space->areas[4], 8, 1e-9);
+    EXPECT_NEAR(space->areas[6], 10, 1e-9);
+    if (turn == Mat3{}) {
+      EXPECT_NEAR(norm(space->size() - Vec3{7.5, 4, 4.5}), 0, 1e-12);
+    }
+  }
+  std::vector<Wall> lower = shear_box({});
+  lower.resize(6);
+  EXPECT_FALSE(space_in(lower).has_value());
+}
+
 TEST(Enclosure, FollowsTheWalls) {
   const auto walls = box({0, 0, 0}, {1, 1, 1});
   std::vector<WallPose> poses(6);

@@ -39,7 +39,7 @@ Checkpoint awkward_checkpoint() {
     grain.velocity = {-0.0, std::numeric_limits<double>::denorm_min(), 1e308};
     grain.angular_velocity_body = vector();
     grain.angular_increment_body = vector();
-    grain.ledger = {number(), number(), number(), number(), number()};
+    grain.ledger = {number(), number(), number(), number(), number(), number()};
     checkpoint.state.grains.push_back(grain);
   }
   const auto spring = [&](std::uint32_t node, bool b) {
@@ -47,7 +47,9 @@ Checkpoint awkward_checkpoint() {
   };
   checkpoint.state.pair_springs = {
       {GrainId{0}, GrainId{1}, {spring(3, false), spring(9, false), spring(2, true)}},
-      {GrainId{1}, GrainId{4294967295U}, {spring(5, true)}}};
+      {GrainId{0}, GrainId{4294967295U}, {}, Bond{vector(), vector(), {1, 2, 3, 4}, vector(), 5}},
+      {GrainId{1}, GrainId{4294967295U}, {spring(5, true)}, Bond{.radius = number()}}};
+  checkpoint.state.broken_bonds = {7, 18446744073709551615U};
   checkpoint.state.wall_springs = {{GrainId{1}, WallId{2}, {spring(8, false)}}};
   checkpoint.state.membrane = {.start = {vector(), vector(), number(), number()},
                                .floor = WallId{1},
@@ -80,9 +82,9 @@ TEST_F(CheckpointTest, ReadsBackTheSameBits) {
   EXPECT_EQ(first_difference(written.state, read.state), std::nullopt);
   EXPECT_EQ(read.state.step, written.state.step);
   EXPECT_EQ(read.state.grains, written.state.grains);
-  ASSERT_EQ(read.state.pair_springs.size(), 2U);
-  EXPECT_EQ(read.state.pair_springs[0].springs, written.state.pair_springs[0].springs);
-  EXPECT_EQ(read.state.pair_springs[1].id_b, GrainId{4294967295U});
+  ASSERT_EQ(read.state.pair_springs.size(), 3U);
+  EXPECT_EQ(read.state.pair_springs, written.state.pair_springs);
+  EXPECT_EQ(read.state.broken_bonds, written.state.broken_bonds);
   EXPECT_EQ(read.state.wall_springs[0].springs, written.state.wall_springs[0].springs);
   EXPECT_EQ(read.state.membrane, written.state.membrane);
   EXPECT_EQ(read.state.cell, written.state.cell);
@@ -143,6 +145,13 @@ TEST(StateDifference, NamesAOneUlpChange) {
   ASSERT_TRUE(spring.has_value());
   EXPECT_EQ(spring->what, "/pair_spring/shear_force");
   EXPECT_EQ(spring->where, "pair of grains 0 and 1, node 2, x");
+
+  b = a;
+  b.pair_springs[2].bond->radius *= 2;
+  const auto bond = first_difference(a, b);
+  ASSERT_TRUE(bond.has_value());
+  EXPECT_EQ(bond->what, "/bond/radius");
+  EXPECT_EQ(bond->where, "bond of grains 1 and 4294967295");
 
   b = a;
   b.grains[0].velocity.x = 0.0;  // was -0.0

@@ -175,7 +175,7 @@ TEST_F(SceneReaderTest, ListsAllFaultsOfAnInputInOneGo) {
                 "100000000",
                 "12:38: grains[0].fill.box.high: expected 3 numbers [x, y, z], found an array of 2",
                 "15:30: wall[0].plane.normal: `normal` must not be the zero vector",
-                "16:1: wall[1]: needs one of `plane`, `box`, `cylinder`",
+                "16:1: wall[1]: needs one of `plane`, `box`, `cylinder`, `ledge`",
                 "17:1: wall[1].name: no two walls may have the same name",
                 "20:1: time.duration: contradicts `steps` on line 19",
                 "20:12: time.duration: \"1 m\" is in m, but a number [s] is needed",

@@ -102,6 +102,28 @@ TEST_F(StagedRunTest, DensityScalingKeepsWeightAndLengthensSteps) {
   }));
 }
 
+/// Cement before the shearing stage: it holds and breaks, is in every file, and resumes.
+TEST_F(StagedRunTest, BondsAreCountedAndOutliveABreak) {
+  std::string text = staged();
+  text.replace(text.find("name = \"shear\""), 14, "name = \"shear\"\nbond = true");
+  text += "[bond]\ntensile_strength = '40 kPa'\nshear_strength = '40 kPa'\nradius_share = 0.3\n";
+  const RunReport whole = run(text, {.folder = root_ / "whole"});
+  const HistoryTable table = read_history(root_ / "whole/history.csv");
+  const auto stage = column(table, "stage");
+  const auto bonds = column(table, "bonds");
+  const auto first = std::count(stage.begin(), stage.end(), "1");
+  EXPECT_EQ(bonds[static_cast<std::size_t>(first) - 1], "0");
+  EXPECT_GT(std::stoi(bonds[static_cast<std::size_t>(first)]), 3);
+  EXPECT_GT(std::stoi(column(table, "broken_in_tension").back()) +
+                std::stoi(column(table, "broken_in_shear").back()),
+            0);
+  EXPECT_GT(std::stod(column(table, "fracture_J").back()), 0);
+  const std::uint64_t step = whole.progress.step - 900;
+  EXPECT_EQ(run_until(step, text, {.folder = root_ / "broken"}).end, RunEnd::interrupted);
+  EXPECT_EQ(run(text, {.folder = root_ / "broken", .resume = true}).end, RunEnd::complete);
+  expect_equal_folders(root_ / "broken", root_ / "whole");
+}
+
 TEST_F(StagedRunTest, AShorterRunGoesOn) {
   (void)run(staged(), {.folder = root_ / "whole"});
   EXPECT_EQ(run(staged(), {.folder = root_ / "short", .steps = 411}).progress.step, 411U);
@@ -128,6 +150,10 @@ TEST_F(StagedRunTest, FaultsOfStagesAreFound) {
   EXPECT_EQ(faults_of(stage + "[time]\nsteps = 5\n"),
             (Faults{"time.steps: with [[stage]] tables, only they say when to end: no `duration`, "
                     "`steps` or `stop_at_unbalanced_ratio` here"}));
+  EXPECT_EQ(faults_of(stage + "bond = true\n"),
+            (Faults{"stage[0].bond: sets cement that the scene does not describe"}));
+  EXPECT_EQ(faults_of(stage + "[bond]\ntensile_strength = '1 kPa'\nshear_strength = '1 kPa'\n"),
+            (Faults{"bond: is never set"}));
   EXPECT_EQ(
       faults_of(stage + "until = { strain = 0.1 }\n[[wall]]\nname = 'tube'\ncylinder = { point "
                         "= [0, 0, 0], axis = [1, 1, 0], radius = 1 }\n"),
