@@ -217,6 +217,28 @@ TEST_F(CliTest, SurfacesOnDemand) {
   EXPECT_EQ(reckon({"surfaces", "a", "--step", "7"}).code, 1);
 }
 
+TEST_F(CliTest, AStateForParaViewCountsFromTheStartOfTheLastStage) {
+  ASSERT_EQ(reckon({"run", "scene.toml", "--out", "a", "--steps", "100"}).code, 0);
+  const Outcome outcome = reckon({"paraview", "a"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("paraview --script=a/paraview/state.py"), std::string::npos);
+  const std::string state = read_file(root_ / "a/paraview/state.py");
+  EXPECT_NE(state.find("\ncounted_from = 0  # [s]"), std::string::npos) << state;
+  EXPECT_NE(state.find('"' + (root_ / "a").string() + "\"\n"), std::string::npos) << state;
+  EXPECT_EQ(state.find("@"), std::string::npos);
+  for (const char* file : {"shapes.vtm", "shapes/00000.vtp", "shapes/00001.vtp"}) {
+    EXPECT_TRUE(std::filesystem::exists(root_ / "a/paraview" / file)) << file;
+  }
+  write("staged.toml", staged());
+  ASSERT_EQ(reckon({"run", "staged.toml", "--out", "a", "--overwrite"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(root_ / "a/paraview"));
+  ASSERT_EQ(reckon({"paraview", "a"}).code, 0);
+  const std::string later = read_file(root_ / "a/paraview/state.py");
+  EXPECT_EQ(later.find("\ncounted_from = 0  # [s]"), std::string::npos);
+  EXPECT_NE(later.find(", at which the last stage began"), std::string::npos);
+  EXPECT_EQ(reckon({"paraview", "nothing.run"}).code, 1);
+}
+
 TEST_F(CliTest, ReferencePagesArePrinted) {
   EXPECT_EQ(reckon({"reference", "scene"}).out,
             read_file(RECKON_SOURCE_DIR "/docs/reference/scene.md"));

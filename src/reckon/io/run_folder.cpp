@@ -18,7 +18,7 @@
 namespace reckon {
 namespace {
 
-constexpr std::array field_kinds{"grains", "contacts", "surfaces", "membrane"};
+constexpr std::array field_kinds{"grains", "contacts", "surfaces", "membrane", "walls"};
 
 /// Steps of all files "PREFIX<digits>SUFFIX" in a folder, ascending.
 std::vector<std::uint64_t> numbered_files(const std::filesystem::path& folder,
@@ -106,6 +106,7 @@ void RunFolder::remove_run() const {
        {scene(), resolved(), history(), log(), json(), performance(), report()}) {
     std::filesystem::remove(file);
   }
+  std::filesystem::remove_all(paraview());
 }
 
 void RunFolder::remove_leftovers() const {
