@@ -26,8 +26,16 @@ if [[ $# -gt 0 ]]; then
 fi
 "${launcher[@]}" "$reckon" run scene.toml --threads 1 --quiet
 "$reckon" paraview scene.run
-# Debian's ParaView draws through X only; a screen in memory will do, one for all.
-xvfb-run -a -s "-screen 0 1600x1200x24" bash -e -c '
-  pvpython scene.run/paraview/state.py state.png
-  pvpython scene.run/paraview/state.py rank.png rank 0
-  pvpython "$1" scene.run "$2" state.png rank.png' - "$here/check_run.py" "$ranks"
+# Debian's ParaView draws through X only; a screen in memory will do, one for all. It aborts (134) when the screen that
+# it was given goes down at once, as it may where another program's has just ended.
+for attempt in 1 2 3 4 5; do
+  code=0
+  xvfb-run -a -s "-screen 0 1600x1200x24" bash -e -c '
+    pvpython scene.run/paraview/state.py state.png
+    pvpython scene.run/paraview/state.py rank.png rank 0
+    pvpython "$1" scene.run "$2" state.png rank.png' - "$here/check_run.py" "$ranks" || code=$?
+  [[ $code == 134 ]] || exit "$code"
+  echo "no screen in attempt $attempt"
+  sleep 2
+done
+exit "$code"

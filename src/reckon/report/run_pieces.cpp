@@ -75,6 +75,7 @@ void add_walls(const SceneConfig& scene, JsonWriter& json) {
   for (const Wall& wall : make_walls(scene)) {
     json.begin_object();
     json.value("name", wall.name);
+    json.value("mould", scene.membrane && scene.membrane->mould == wall.name);
     if (const auto* plane = std::get_if<PlaneSurface>(&wall.surface)) {
       add_vector(json, "point", plane->point);
       add_vector(json, "normal", plane->normal_unit);
@@ -262,6 +263,9 @@ std::string RunPieces::frame(std::uint64_t step) const {
   std::vector<float> walls;
   for (const Vec3& displacement : fields.wall_displacement) append(walls, displacement);
 
+  std::vector<float> membrane;
+  for (const Vec3& place : fields.membrane_places) append(membrane, place);
+
   Piece piece;
   piece.json().value("step", fields.step);
   piece.json().value("time", fields.time);
@@ -283,6 +287,8 @@ std::string RunPieces::frame(std::uint64_t step) const {
   piece.add("deepest", deepest);
   piece.add("nodes", nodes);
   piece.add("wall_displacement", walls, 3);
+  piece.add("membrane_position", membrane, 3);
+  piece.add("membrane_corners", fields.membrane_corners, 3);
   return piece.finish();
 }
 
