@@ -275,7 +275,6 @@ TEST_F(CliTest, EveryCommandKeepsTheSameManners) {
       {{"report", "a", "--frames", "0"}},
       {{"surfaces", "a"}},
       {{"paraview", "a"}},
-      {{"bench", "paper-592", "--size", "small"}, true},
       {{"reference", "man"}},
       {{"grains", "generate", "--count", "2", "--d50", "1mm", "-o", "two.h5"}},
       {{"grains", "solid", "--sphere", "1mm", "-o", "solid.h5"}},
