@@ -5,7 +5,7 @@
 # The one list of Debian packages that the project needs, and the installation of those that are
 # missing. docs/dependencies.md says why each is here.
 #
-#   tools/install_dependencies.sh [--list] GROUP...     groups: build, test, ct, viewer, python
+#   tools/install_dependencies.sh [--list] GROUP...     groups: build, test, ct, viewer, python, paraview
 set -euo pipefail
 
 packages_of() {
@@ -21,10 +21,12 @@ packages_of() {
       echo python3-dev pybind11-dev python3-numpy python3-tomli-w ;;
     ct)  # the optional component that makes grains from X-ray volumes
       echo libinsighttoolkit5-dev ;;
+    paraview)  # ParaView, without a screen, to test what it makes of a run's files
+      echo paraview python3-paraview python3-numpy xvfb xauth ;;
     viewer)  # what bundles the page of `reckon report`
       echo nodejs npm ;;
     *)
-      echo "install_dependencies.sh: unknown group '$1'; there are: build, test, ct, viewer, python" >&2
+      echo "install_dependencies.sh: unknown group '$1'; there are: build, test, ct, viewer, python, paraview" >&2
       return 2 ;;
   esac
 }
@@ -34,7 +36,7 @@ if [[ ${1:-} == --list ]]; then
   list_only=true
   shift
 fi
-[[ $# -gt 0 ]] || { echo "usage: install_dependencies.sh [--list] GROUP...   (build, test, ct, viewer, python)" >&2; exit 2; }
+[[ $# -gt 0 ]] || { echo "usage: install_dependencies.sh [--list] GROUP...   (build, test, ct, viewer, python, paraview)" >&2; exit 2; }
 
 wanted=()
 for group in "$@"; do

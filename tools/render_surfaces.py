@@ -5,7 +5,7 @@
 
   tools/render_surfaces.py SURFACES.vtp PICTURE.png [--width 1200] [--height 1000]
 
-Each grain has a colour of its own. Needs python3-vtk9.
+Each grain has a colour of its own. Needs python3-paraview or python3-vtk9.
 """
 import argparse
 

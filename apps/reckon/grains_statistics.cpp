@@ -11,6 +11,7 @@
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/avatar/shape_statistics.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/io/json_writer.hpp"
 
 namespace reckon::app {
 namespace {
@@ -23,6 +24,27 @@ void print_spreads(const ShapeLibrary& library) {
     fmt::print("{:<14} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g}\n",
                measure.name, s.mean, s.deviation, s.low, s.tenth, s.median, s.ninetieth, s.high);
   }
+}
+
+std::string as_json(const std::string& file, const ShapeLibrary& library) {
+  JsonWriter json;
+  json.begin_object();
+  json.value("file", file);
+  json.value("grains", library.size());
+  for (const ShapeMeasure& measure : shape_measures()) {
+    const MeasureSpread s = spread_of(library, measure);
+    json.begin_object(measure.name);
+    json.value("mean", s.mean);
+    json.value("deviation", s.deviation);
+    json.value("least", s.low);
+    json.value("percentile_10", s.tenth);
+    json.value("median", s.median);
+    json.value("percentile_90", s.ninetieth);
+    json.value("most", s.high);
+    json.end();
+  }
+  json.end();
+  return json.text();
 }
 
 std::string as_csv(const ShapeLibrary& library) {
@@ -48,15 +70,21 @@ void add_grains_statistics(CLI::App& grains) {
   struct Options {
     std::string library;
     std::string output;
+    bool json{false};
   };
   auto options = std::make_shared<Options>();
   command->add_option("library", options->library, "Shape library (.h5) or legacy folder")
       ->required();
   command->add_option("-o,--output", options->output, "Write a line per grain to this .csv");
+  command->add_flag("--json", options->json, "Answer in JSON");
   command->callback([=] {
     const ShapeLibrary library = load_entries(options->library);
     if (!options->output.empty()) write_file(options->output, as_csv(library));
-    print_spreads(library);
+    if (options->json) {
+      fmt::print("{}", as_json(options->library, library));
+    } else {
+      print_spreads(library);
+    }
   });
 }
 

@@ -18,6 +18,7 @@
 #include "diff_command.hpp"
 #include "exit_codes.hpp"
 #include "grains_command.hpp"
+#include "paraview_command.hpp"
 #include "reckon/core/build_info.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/io/nearest_name.hpp"
@@ -128,6 +129,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
   add_diff_command(app);
   add_report_command(app);
   add_watch_command(app);
+  add_paraview_command(app);
   add_surfaces_command(app);
   add_analyse_command(app);
   add_bench_command(app);

@@ -17,8 +17,12 @@
 
 #include "exit_codes.hpp"
 #include "progress.hpp"
+#include "reckon/io/history.hpp"
 #include "reckon/io/human.hpp"
+#include "reckon/io/json_writer.hpp"
 #include "reckon/io/run.hpp"
+#include "reckon/io/run_folder.hpp"
+#include "reckon/io/stage_report.hpp"
 #include "reckon/parallel/communicator.hpp"
 #include "reckon/parallel/on_root.hpp"
 #include "reckon/parallel/threads.hpp"
@@ -36,6 +40,7 @@ struct Options {
   bool resume{false};
   bool overwrite{false};
   bool quiet{false};
+  bool json{false};
   double safety_minutes{10};
 };
 
@@ -73,6 +78,50 @@ void print_result(const RunReport& report, const std::filesystem::path& folder) 
              (folder / "grains.pvd").string());
 }
 
+void print_json(const RunReport& report, const SceneConfig& scene,
+                const std::filesystem::path& folder) {
+  const RunProgress& progress = report.progress;
+  JsonWriter json;
+  json.begin_object();
+  json.value("folder", folder.string());
+  json.value("status", report.end == RunEnd::at_rest ? "at rest" : "complete");
+  json.value("nothing_to_do", report.end == RunEnd::nothing_to_do);
+  json.value("step", progress.step);
+  json.value("time_s", progress.time);
+  json.value("wall_s", progress.wall_seconds);
+  json.value("contacts", report.last.contacts);
+  json.value("wall_contacts", report.last.wall_contacts);
+  json.value("coordination", report.last.coordination);
+  json.value("unbalanced_ratio", report.last.unbalanced_ratio);
+  json.value("deepest_overlap_m", report.last.deepest_overlap);
+  json.value("energy_error_J", report.energy_error);
+  json.value("energy_turnover_J", report.energy_turnover);
+  json.begin_array("driven_stages");
+  for (const StageFinding& found :
+       stage_findings(scene, read_history(RunFolder{folder}.history()))) {
+    json.begin_object();
+    json.value("stage", found.stage);
+    json.value("peak_friction_angle_deg", found.shear.peak_friction_angle);
+    json.value("strain_at_peak", found.shear.strain_at_peak);
+    json.value("final_friction_angle_deg", found.shear.final_friction_angle);
+    if (found.free_volume) {
+      json.value("dilatancy_angle_deg", found.shear.dilatancy_angle);
+      json.value("final_dilatancy_angle_deg", found.shear.final_dilatancy_angle);
+    }
+    json.value("axial_strain", found.axial_strain);
+    json.value("void_ratio", found.void_ratio);
+    if (found.has_walls) {
+      json.value("stress_disagreement", found.stress_disagreement);
+      json.value("largest_stress_disagreement", found.largest_disagreement);
+    }
+    json.value("inertial_number", found.inertial_number);
+    json.end();
+  }
+  json.end();
+  json.end();
+  fmt::print("{}", json.text());
+}
+
 /// Threads of each rank where the user has not chosen: an even share of the machine's processors,
 /// within what the launcher lets this rank use.
 int default_thread_count(const Communicator& ranks) {
@@ -104,7 +153,7 @@ SceneInput read_scene_on_root(const Options& options, const Communicator& ranks)
 void run(const Options& options, const Communicator& ranks) {
   set_threads(options, ranks);
   const SceneInput input = read_scene_on_root(options, ranks);
-  const bool quiet = options.quiet || !ranks.is_root();
+  const bool quiet = options.quiet || options.json || !ranks.is_root();
   const RunOptions run_options{
       .folder = run_folder(options),
       .resume = options.resume,
@@ -143,6 +192,9 @@ void run(const Options& options, const Communicator& ranks) {
     }
     throw CLI::RuntimeError{signal == SIGINT ? interrupted : terminated};
   }
+  if (options.json && ranks.is_root()) {
+    print_json(report, input.scene.config, run_options.folder);
+  }
   if (quiet) return;
   if (report.end == RunEnd::nothing_to_do) {
     fmt::print("the run is complete already: nothing to do\n");
@@ -179,6 +231,7 @@ void add_run_command(CLI::App& app, const Communicator& ranks) {
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->add_flag("--json", options->json, "At the end, answer in JSON, and print nothing else");
   command->footer(
       std::string{"Examples:\n"
                   "  reckon run settle.toml\n"

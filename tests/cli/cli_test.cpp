@@ -217,6 +217,121 @@ TEST_F(CliTest, SurfacesOnDemand) {
   EXPECT_EQ(reckon({"surfaces", "a", "--step", "7"}).code, 1);
 }
 
+TEST_F(CliTest, AStateForParaViewCountsFromTheStartOfTheLastStage) {
+  ASSERT_EQ(reckon({"run", "scene.toml", "--out", "a", "--steps", "100"}).code, 0);
+  const Outcome outcome = reckon({"paraview", "a"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("paraview --script=a/paraview/state.py"), std::string::npos);
+  const std::string state = read_file(root_ / "a/paraview/state.py");
+  EXPECT_NE(state.find("\ncounted_from = 0  # [s]"), std::string::npos) << state;
+  EXPECT_NE(state.find('"' + (root_ / "a").string() + "\"\n"), std::string::npos) << state;
+  EXPECT_EQ(state.find("@"), std::string::npos);
+  for (const char* file : {"shapes.vtm", "shapes/00000.vtp", "shapes/00001.vtp"}) {
+    EXPECT_TRUE(std::filesystem::exists(root_ / "a/paraview" / file)) << file;
+  }
+  write("staged.toml", staged());
+  ASSERT_EQ(reckon({"run", "staged.toml", "--out", "a", "--overwrite"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(root_ / "a/paraview"));
+  ASSERT_EQ(reckon({"paraview", "a"}).code, 0);
+  const std::string later = read_file(root_ / "a/paraview/state.py");
+  EXPECT_EQ(later.find("\ncounted_from = 0  # [s]"), std::string::npos);
+  EXPECT_NE(later.find(", at which the last stage began"), std::string::npos);
+  EXPECT_EQ(reckon({"paraview", "nothing.run"}).code, 1);
+}
+
+/// Whether a text is one JSON object with all its brackets closed, as far as a look at brackets and
+/// strings can tell.
+bool looks_like_json(const std::string& text) {
+  std::string open;
+  bool in_string = false;
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    const char c = text[n];
+    if (in_string) {
+      if (c == '\\') ++n;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '{' || c == '[') {
+      open += c == '{' ? '}' : ']';
+    } else if (c == '}' || c == ']') {
+      if (open.empty() || open.back() != c) return false;
+      open.pop_back();
+      if (open.empty()) return text.substr(n + 1) == "\n";
+    }
+  }
+  return false;
+}
+
+TEST_F(CliTest, EveryCommandKeepsTheSameManners) {
+  ASSERT_EQ(reckon({"run", "scene.toml", "--out", "a", "--steps", "100", "--quiet"}).out, "");
+  struct Row {
+    std::vector<std::string> arguments;
+    bool answers_in_json{false};
+  };
+  const std::vector<Row> commands{
+      {{"check", "scene.toml"}, true},
+      {{"run", "scene.toml", "--overwrite", "--steps", "100"}, true},
+      {{"diff", "a", "a"}, true},
+      {{"report", "a", "--frames", "0"}},
+      {{"surfaces", "a"}},
+      {{"paraview", "a"}},
+      {{"reference", "man"}},
+      {{"grains", "generate", "--count", "2", "--d50", "1mm", "-o", "two.h5"}},
+      {{"grains", "solid", "--sphere", "1mm", "-o", "solid.h5"}},
+      {{"grains", "info", "grains.h5"}, true},
+      {{"grains", "statistics", "grains.h5"}, true},
+      {{"grains", "spheres", "grains.h5", "-o", "spheres.h5"}},
+      {{"grains", "export", "grains.h5", "--out", "look"}},
+  };
+  for (const auto& [arguments, answers_in_json] : commands) {
+    SCOPED_TRACE(arguments[0] + " " + arguments[1]);
+    Outcome plain = reckon(arguments);
+    if (plain.err.find("built without") != std::string::npos) continue;
+    EXPECT_EQ(plain.code, 0) << plain.err;
+    // No terminal here: nothing is coloured or drawn over.
+    EXPECT_EQ((plain.out + plain.err).find_first_of("\033\r"), std::string::npos);
+
+    std::vector<std::string> with_json = arguments;
+    with_json.emplace_back("--json");
+    const Outcome json = reckon(with_json);
+    if (answers_in_json) {
+      EXPECT_EQ(json.code, 0) << json.err;
+      EXPECT_TRUE(looks_like_json(json.out)) << json.out;
+    } else {
+      EXPECT_EQ(json.code, 1);
+    }
+
+    std::vector<std::string> path{arguments[0]};
+    if (arguments[0] == "grains") path.push_back(arguments[1]);
+    path.emplace_back("--help");
+    const Outcome help = reckon(path);
+    EXPECT_EQ(help.code, 0);
+    EXPECT_EQ(help.err, "");
+    EXPECT_NE(help.out.find("Example"), std::string::npos) << help.out;
+    EXPECT_EQ(help.out.find("--json") != std::string::npos, answers_in_json);
+
+    path.back() = "--no-such-option";
+    const Outcome wrong = reckon(path);
+    EXPECT_EQ(wrong.code, 1);
+    EXPECT_EQ(wrong.out, "");
+    EXPECT_EQ(wrong.err.find("reckon: error: "), 0U) << wrong.err;
+    EXPECT_NE(wrong.err.find("--help"), std::string::npos) << wrong.err;
+  }
+}
+
+TEST_F(CliTest, ARunAnswersInJsonWithWhatItsStagesHaveShown) {
+  write("staged.toml", staged());
+  const Outcome outcome = reckon({"run", "staged.toml", "--json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ASSERT_TRUE(looks_like_json(outcome.out)) << outcome.out;
+  for (const char* key : {"\"status\": \"complete\"", "\"driven_stages\": [",
+                          "\"peak_friction_angle_deg\": ", "\"inertial_number\": "}) {
+    EXPECT_NE(outcome.out.find(key), std::string::npos) << key << outcome.out;
+  }
+  const Outcome again = reckon({"run", "staged.toml", "--resume", "--json"});
+  EXPECT_NE(again.out.find("\"nothing_to_do\": true"), std::string::npos) << again.out;
+}
+
 TEST_F(CliTest, ReferencePagesArePrinted) {
   EXPECT_EQ(reckon({"reference", "scene"}).out,
             read_file(RECKON_SOURCE_DIR "/docs/reference/scene.md"));

@@ -82,6 +82,33 @@ Target fields_target() {
           .cost = 3};
 }
 
+Target membrane_target() {
+  const auto folder = std::make_shared<const ScratchFolder>();
+  return {.name = "membrane",
+          .valid_inputs =
+              [folder] {
+                const std::filesystem::path file = folder->path() / "valid.vtp";
+                MembraneAtStep membrane;
+                membrane.places = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+                membrane.displacements = membrane.velocities = membrane.contact_forces =
+                    membrane.places;
+                membrane.triangles = {.connectivity = {0, 1, 2, 0, 2, 3}, .offsets = {3, 6}};
+                write_membrane(file, membrane, 0.5);
+                return std::vector<std::string>{read_file(file)};
+              },
+          .read =
+              [folder](const std::string& input) {
+                std::filesystem::create_directories(folder->path() / "fields");
+                FieldsAtStep fields;
+                fields.grains = small_checkpoint().state.grains;
+                write_grain_points(folder->path() / RunFolder::field_name("grains", 7), fields,
+                                   std::vector<ShapeSummary>(2), 2650);
+                (void)folder->write(RunFolder::field_name("membrane", 7), input);
+                (void)read_fields(RunFolder{folder->path()}, 7);
+              },
+          .cost = 3};
+}
+
 Target history_target() {
   const auto folder = std::make_shared<const ScratchFolder>();
   return {

@@ -22,6 +22,7 @@ std::vector<Target> all_targets() {
                           shape_library_target(),
                           checkpoint_target(),
                           fields_target(),
+                          membrane_target(),
                           history_target(),
                           number_table_target(),
                           placement_target(),

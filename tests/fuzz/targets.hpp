@@ -19,6 +19,7 @@ namespace reckon::fuzz {
 [[nodiscard]] Target shape_library_target();
 [[nodiscard]] Target checkpoint_target();
 [[nodiscard]] Target fields_target();
+[[nodiscard]] Target membrane_target();
 [[nodiscard]] Target history_target();
 [[nodiscard]] Target number_table_target();
 [[nodiscard]] Target placement_target();

@@ -21,6 +21,7 @@ export function frameOf(
   pairs: ContactGiven[] = [],
   walls: ContactGiven[] = [],
   wallDisplacement: number[] = [],
+  membrane: { position: number[]; corners: number[] } = { position: [], corners: [] },
 ): Frame {
   const contacts = [...pairs, ...walls];
   const radii = Float32Array.from(grains, ({ radius }) => radius ?? 1);
@@ -41,6 +42,8 @@ export function frameOf(
     deepest: new Float32Array(contacts.length),
     nodes: new Uint16Array(contacts.length),
     wall_displacement: Float32Array.from(wallDisplacement),
+    membrane_position: Float32Array.from(membrane.position),
+    membrane_corners: Uint32Array.from(membrane.corners),
   };
   const text: FrameText = { step: 1, time: 0.5, has_contacts: true, pairs: pairs.length };
   return new Frame(new Piece(text, new Map(Object.entries(arrays))));

@@ -4,9 +4,11 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { boundsOf, clipped, wallLines } from "../src/grains/outlines.ts";
 import { merged } from "../src/grains/merged.ts";
+import { Detail, Pace } from "../src/grains/pace.ts";
 import { firstHit, pickGrain, turned } from "../src/grains/pick.ts";
 import { colourRange, displacement, rotation } from "../src/grains/quantities.ts";
 import { ball, type Surface } from "../src/grains/surfaces.ts";
+import type { Wall } from "../src/data/run.ts";
 import { frameOf, near } from "./frames.ts";
 
 const quarterAboutZ: [number, number, number, number] = [Math.SQRT1_2, 0, 0, Math.SQRT1_2];
@@ -174,4 +176,28 @@ test("grains merged into one surface stand where they are, in their colours", ()
     assert.deepEqual([...all.colour.subarray(3 * n, 3 * n + 3)], row === 0 ? [1, 0, 0] : [0, 0, 1]);
   }
   assert.equal(all.index[small.index.length], vertices + small.index[0]);
+});
+
+test("slow machines draw less and less of each grain while the view moves, until it keeps pace", () => {
+  const pace = new Pace();
+  pace.learn(Detail.fine, 20);
+  assert.equal(pace.moving, Detail.fine);
+  pace.learn(Detail.fine, 900);
+  assert.equal(pace.moving, Detail.coarse);
+  pace.learn(Detail.coarse, 30); // quick enough
+  assert.equal(pace.moving, Detail.coarse);
+  pace.learn(Detail.coarse, 80);
+  assert.equal(pace.moving, Detail.balls);
+  pace.learn(Detail.balls, 80); // there is nothing less
+  assert.equal(pace.moving, Detail.balls);
+  pace.learn(Detail.fine, 15); // only the first pictures were slow
+  assert.equal(pace.moving, Detail.fine);
+});
+
+test("a mould is not drawn where the membrane has taken its place", () => {
+  const walls: Wall[] = [{ name: "mould", mould: true, point: [0, 0, 0], axis: [0, 0, 1], radius: 2 }];
+  const grains = [{ id: 0, position: [0, 0, 0] as [number, number, number] }];
+  assert.ok(wallLines(walls, frameOf(grains)).length > 100);
+  const triangle = { position: [0, 0, 0, 1, 0, 0, 0, 1, 0], corners: [0, 1, 2] };
+  assert.equal(wallLines(walls, frameOf(grains, [], [], [], triangle)).length, 0);
 });

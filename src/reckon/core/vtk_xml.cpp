@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <utility>
@@ -67,7 +68,9 @@ struct Document {
   }
 
   void add_section(std::string_view name, const std::vector<VtkArray>& arrays) {
-    text += fmt::format("<{}>\n", name);
+    const bool shaded = std::any_of(arrays.begin(), arrays.end(),
+                                    [](const VtkArray& array) { return array.name == "Normals"; });
+    text += fmt::format("<{}{}>\n", name, shaded ? R"( Normals="Normals")" : "");
     for (const VtkArray& array : arrays) add(array);
     text += fmt::format("</{}>\n", name);
   }
@@ -179,6 +182,19 @@ void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entr
             "\n";
   }
   text += "</Collection>\n</VTKFile>\n";
+  write_file(path, text);
+}
+
+void write_vtm(const std::filesystem::path& path, std::span<const VtmBlock> blocks) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n<vtkMultiBlockDataSet>\n";
+  for (std::size_t n = 0; n < blocks.size(); ++n) {
+    text += fmt::format(R"(<DataSet index="{}" name="{}" file="{}"/>)", n, escaped(blocks[n].name),
+                        escaped(blocks[n].file)) +
+            "\n";
+  }
+  text += "</vtkMultiBlockDataSet>\n</VTKFile>\n";
   write_file(path, text);
 }
 

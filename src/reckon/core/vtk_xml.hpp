@@ -98,6 +98,8 @@ struct VtkPolyData {
   std::vector<VtkArray> field_data;  ///< of the whole file, e.g. "TimeValue"
 };
 
+/// Point data called "Normals" are what surfaces are shaded by.
+///
 /// Writes a VTK XML PolyData file: raw appended binary, little-endian, 64-bit headers, readable by
 /// ParaView 5 and later. Throws Error when array lengths disagree with the number of points or
 /// cells, when a cell names a point that does not exist, or when the file cannot be written.
@@ -112,5 +114,14 @@ struct PvdEntry {
 
 /// Writes a ParaView collection file that puts files in order of time.
 void write_pvd(const std::filesystem::path& path, std::span<const PvdEntry> entries);
+
+/// One block of a multi-block file.
+struct VtmBlock {
+  std::string name;
+  std::string file;  ///< relative to the .vtm file
+};
+
+/// Writes a VTK multi-block file, whose blocks are other files.
+void write_vtm(const std::filesystem::path& path, std::span<const VtmBlock> blocks);
 
 }  // namespace reckon

@@ -31,6 +31,8 @@ struct FieldsAtStep {
   std::uint64_t step{0};
   double time{0};                       ///< [s]
   std::vector<GrainState> grains;       ///< sorted by id
+  std::vector<std::uint32_t> ranks;     ///< that have each grain; empty: not asked for
+  bool has_contacts{true};              ///< whether contacts are known
   std::vector<ContactRecord> contacts;  ///< see Simulation::contacts
   std::vector<Vec3> wall_displacement;  ///< by wall, since time zero [m]
   std::optional<MembraneAtStep> membrane;
@@ -39,8 +41,8 @@ struct FieldsAtStep {
 /// Writes one point per grain, by id: `id`, `shape`, `radius` (of the bounding sphere),
 /// `equivalent_radius` (of the sphere of equal volume), `mass`, `orientation` (quaternion w, x, y,
 /// z, body to world), `velocity` and `angular_velocity` (world frame, half a step before),
-/// `speed`, `prescribed`, `contacts` (touching partners, walls included) and `contact_force` (net).
-/// Data of the whole file: `TimeValue` and `wall_displacement`.
+/// `speed`, `prescribed`, `contacts` (touching partners, walls included), `contact_force` (net)
+/// and, where asked for, `rank`. Data of the whole file: `TimeValue` and `wall_displacement`.
 void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& fields,
                         std::span<const ShapeSummary> shapes, double density);
 
@@ -56,10 +58,19 @@ void put_into(const PeriodicCell& cell, std::span<GrainState> grains);
 /// Writes the membrane's triangles, with `displacement`, `velocity` and `contact_force` per node.
 void write_membrane(const std::filesystem::path& path, const MembraneAtStep& membrane, double time);
 
+/// Writes the walls as polygons (io/wall_surfaces.hpp), with `wall` (its place in the scene),
+/// `displacement` since time zero and `force` of all grains on it. The mould of a membrane that is
+/// in place is not there. Without grains there is nothing to draw them around.
+void write_walls(const std::filesystem::path& path, const FieldsAtStep& fields,
+                 std::span<const ShapeSummary> shapes, std::span<const Wall> walls,
+                 std::optional<WallId> mould);
+
 /// Writes the grains' true surfaces where the grains are, with `id`, `shape` and `speed` per
-/// triangle. `surfaces[shape]` are in the body frame.
-void write_grain_surfaces(const std::filesystem::path& path, std::span<const GrainState> grains,
-                          std::span<const TriangleMesh> surfaces, double time);
+/// triangle, and per point what write_grain_points tells of the grain, as far as it is known.
+/// `surfaces[shape]` are in the body frame.
+void write_grain_surfaces(const std::filesystem::path& path, const FieldsAtStep& fields,
+                          std::span<const ShapeSummary> shapes, double density,
+                          std::span<const TriangleMesh> surfaces);
 
 /// The zero surfaces of the shapes that grains have, by ShapeId, for write_grain_surfaces; those of
 /// other shapes are empty.

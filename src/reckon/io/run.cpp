@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -14,6 +15,7 @@
 
 #include "reckon/analysis/sample.hpp"
 #include "reckon/core/build_info.hpp"
+#include "reckon/domain/packing.hpp"
 #include "reckon/io/output_schedule.hpp"
 #include "reckon/io/run_files.hpp"
 #include "reckon/io/scene_sharing.hpp"
@@ -35,6 +37,24 @@ double seconds_since(Clock::time_point start) {
 constexpr std::uint64_t rest_interval_without_history = 100;  // steps
 constexpr std::uint64_t vote_interval = 16;  // steps; a vote costs all ranks a wait
 constexpr double log_interval = 60;          // [s]
+
+/// Which rank has each grain, by id, from the ids that this rank has. Whole on the root.
+/// Collective.
+std::vector<std::uint32_t> ranks_of_grains(const std::vector<GrainId>& own,
+                                           const Communicator& ranks) {
+  Bytes bytes;
+  pack<GrainId>(bytes, own);
+  std::vector<std::pair<GrainId, std::uint32_t>> found;
+  std::uint32_t rank = 0;
+  for (const Bytes& part : ranks.gather(bytes)) {
+    for (const GrainId id : Unpacker{part}.take_all<GrainId>()) found.emplace_back(id, rank);
+    ++rank;
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<std::uint32_t> result;
+  for (const auto& [id, has] : found) result.push_back(has);
+  return result;
+}
 
 /// One session of a run, the same on all ranks; the root alone has `files`.
 class Session {
@@ -247,6 +267,7 @@ class Session {
     fields.contacts = simulation_.contacts();
     fields.grains = simulation_.grain_states();
     if (const PeriodicCell* cell = simulation_.cell()) put_into(*cell, fields.grains);
+    if (config_.output.ranks) fields.ranks = ranks_of_grains(simulation_.grains().id, ranks_);
     for (const WallPose& pose : simulation_.wall_contacts().poses()) {
       fields.wall_displacement.push_back(pose.displacement);
     }

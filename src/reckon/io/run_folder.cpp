@@ -18,7 +18,7 @@
 namespace reckon {
 namespace {
 
-constexpr std::array field_kinds{"grains", "contacts", "surfaces", "membrane", "strain"};
+constexpr std::array field_kinds{"grains", "contacts", "surfaces", "membrane", "walls", "strain"};
 
 /// Steps of all files "PREFIX<digits>SUFFIX" in a folder, ascending.
 std::vector<std::uint64_t> numbered_files(const std::filesystem::path& folder,
@@ -106,6 +106,7 @@ void RunFolder::remove_run() const {
                            root_ / "force_distribution.csv"}) {
     std::filesystem::remove(file);
   }
+  std::filesystem::remove_all(paraview());
 }
 
 void RunFolder::remove_leftovers() const {

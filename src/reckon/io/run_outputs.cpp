@@ -27,6 +27,7 @@ RunOutputs::RunOutputs(RunFolder folder, const LoadedScene& scene, const Prepare
       schedule_{std::move(schedule)},
       shapes_{scene.shapes},
       read_shape_{scene.read_shape},
+      walls_{prepared.setup.walls},
       density_{scene.config.material.density},
       time_step_{prepared.time_step.step},
       history_{folder_.history(),
@@ -34,11 +35,13 @@ RunOutputs::RunOutputs(RunFolder folder, const LoadedScene& scene, const Prepare
                 prepared.setup.cell.has_value(), prepared.setup.contact.bond.has_value(),
                 !prepared.setup.stages.empty(), config_.sample},
                rows_to_keep(schedule_, resumed_at)} {
+  if (prepared.setup.membrane) mould_ = prepared.setup.membrane->mould;
   if (!resumed_at) return;
   take_over("grains", *resumed_at, grains_);
   take_over("contacts", *resumed_at, contacts_);
   take_over("surfaces", *resumed_at, surfaces_);
   take_over("membrane", *resumed_at, membrane_);
+  take_over("walls", *resumed_at, wall_polygons_);
   if (schedule_.history_due(*resumed_at)) last_row_ = resumed_at;
   if (schedule_.fields_due(*resumed_at)) last_frame_ = resumed_at;
 }
@@ -60,12 +63,17 @@ void RunOutputs::write_fields(const FieldsAtStep& fields) {
   }
   if (config_.surfaces) {
     if (surface_meshes_.empty()) surface_meshes_ = surface_meshes(fields.grains, read_shape_);
-    write_grain_surfaces(file("surfaces"), fields.grains, surface_meshes_, fields.time);
+    write_grain_surfaces(file("surfaces"), fields, shapes_, density_, surface_meshes_);
     add_to_index("surfaces", fields.step, surfaces_);
   }
-  if (fields.membrane) {
-    write_membrane(file("membrane"), *fields.membrane, fields.time);
+  if (mould_) {  // an empty file while the mould is in the membrane's place: pictures then show
+                 // none
+    write_membrane(file("membrane"), fields.membrane.value_or(MembraneAtStep{}), fields.time);
     add_to_index("membrane", fields.step, membrane_);
+  }
+  if (!walls_.empty()) {
+    write_walls(file("walls"), fields, shapes_, walls_, mould_);
+    add_to_index("walls", fields.step, wall_polygons_);
   }
   last_frame_ = fields.step;
 }

@@ -41,6 +41,8 @@ class RunOutputs {
   OutputSchedule schedule_;  // as of the start of the session
   std::vector<ShapeSummary> shapes_;
   ShapeStore::Read read_shape_;
+  std::vector<Wall> walls_;
+  std::optional<WallId> mould_;
   double density_;
   double time_step_;
   HistoryFile history_;
@@ -48,6 +50,7 @@ class RunOutputs {
   std::vector<PvdEntry> contacts_;
   std::vector<PvdEntry> surfaces_;
   std::vector<PvdEntry> membrane_;
+  std::vector<PvdEntry> wall_polygons_;
   std::vector<TriangleMesh> surface_meshes_;  // made when first needed
   std::optional<std::uint64_t> last_row_;
   std::optional<std::uint64_t> last_frame_;

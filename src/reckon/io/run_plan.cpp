@@ -98,7 +98,7 @@ void estimate_output(const LoadedScene& scene, std::uint64_t row_bytes, RunPlan&
   plan.checkpoints = occasions(plan.steps, output.checkpoint_interval);
   constexpr std::uint64_t grain_point = 210;  // bytes, as fields.cpp writes them
   constexpr std::uint64_t contact_line = 125;
-  constexpr double triangle = 50;
+  constexpr double triangle = 76;             // with the half point that goes with it
   constexpr std::uint64_t grain_state = 181;  // bytes, as checkpoint.cpp writes them
   constexpr std::uint64_t spring = 53;
   std::uint64_t frame = plan.grains * grain_point;

@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/core/error.hpp"
 #include "reckon/core/vtk_xml.hpp"
 #include "reckon/io/fields.hpp"
+#include "reckon/io/saved_fields.hpp"
 #include "reckon/io/scene_reader.hpp"
 
 namespace reckon {
@@ -53,17 +56,28 @@ SurfaceFiles write_run_surfaces(const RunFolder& folder, std::optional<std::uint
                  .fix = "Name the folder of a run."}};
   }
   std::vector<TriangleMesh> surfaces;
+  std::vector<ShapeSummary> summaries;
   double time_step = 0;
+  double density = 0;
   for (const std::uint64_t at : steps) {
-    const Checkpoint checkpoint = read_checkpoint(folder.checkpoint(at));
+    Checkpoint checkpoint = read_checkpoint(folder.checkpoint(at));
     if (surfaces.empty()) {
       const ShapeCatalog shapes = shapes_of(checkpoint, place);
       surfaces = surface_meshes(checkpoint.state.grains,
                                 [&](ShapeId shape) { return shapes.read(shape); });
+      for (std::size_t s = 0; s < shapes.size(); ++s) {
+        summaries.push_back(shapes.summary(ShapeId{static_cast<std::uint32_t>(s)}));
+      }
+      density = read_scene_text(checkpoint.scene, "/").config.material.density;
     }
     time_step = checkpoint.time_step;
-    write_grain_surfaces(folder.root() / RunFolder::field_name("surfaces", at),
-                         checkpoint.state.grains, surfaces, static_cast<double>(at) * time_step);
+    FieldsAtStep fields{.step = at, .time = static_cast<double>(at) * time_step};
+    fields.grains = std::move(checkpoint.state.grains);
+    fields.has_contacts =
+        std::filesystem::exists(folder.root() / RunFolder::field_name("contacts", at));
+    if (fields.has_contacts) fields.contacts = read_fields(folder, at).contacts;
+    write_grain_surfaces(folder.root() / RunFolder::field_name("surfaces", at), fields, summaries,
+                         density, surfaces);
   }
   std::vector<PvdEntry> entries;
   for (const std::uint64_t at : folder.field_steps("surfaces")) {

@@ -132,6 +132,23 @@ void read_contacts(const std::filesystem::path& path, SavedFields& fields) {
                         [](const ContactRecord& contact) { return !contact.with_wall; });
 }
 
+void read_membrane(const std::filesystem::path& path, SavedFields& fields) {
+  const VtkReader file{path};
+  const std::size_t nodes = file.tuples(VtkSection::points, "Points");
+  if (nodes == 0) return;
+  const Column places{file, path, VtkSection::points, "Points", 3, nodes};
+  for (std::size_t node = 0; node < nodes; ++node) {
+    fields.membrane_places.push_back(places.vector(node));
+  }
+  const std::size_t corners = file.tuples(VtkSection::polys, "connectivity");
+  const Column corner{file, path, VtkSection::polys, "connectivity", 1, corners};
+  if (corners % 3 != 0) refuse(path, "the membrane is not made of triangles");
+  for (std::size_t n = 0; n < corners; ++n) {
+    if (corner.whole(n) >= nodes) refuse(path, "a triangle names a node that does not exist");
+    fields.membrane_corners.push_back(corner.whole(n));
+  }
+}
+
 }  // namespace
 
 SavedFields read_fields(const RunFolder& folder, std::uint64_t step) {
@@ -141,6 +158,8 @@ SavedFields read_fields(const RunFolder& folder, std::uint64_t step) {
   const std::filesystem::path contacts = folder.root() / RunFolder::field_name("contacts", step);
   fields.has_contacts = std::filesystem::exists(contacts);
   if (fields.has_contacts) read_contacts(contacts, fields);
+  const std::filesystem::path membrane = folder.root() / RunFolder::field_name("membrane", step);
+  if (std::filesystem::exists(membrane)) read_membrane(membrane, fields);
   return fields;
 }
 

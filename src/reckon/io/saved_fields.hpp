@@ -33,6 +33,8 @@ struct SavedFields {
   bool has_contacts{false};             ///< whether the run wrote contacts (output.contacts)
   std::vector<ContactRecord> contacts;  ///< of pairs, then with walls
   std::vector<Vec3> wall_displacement;  ///< by wall, since time zero; empty where not known [m]
+  std::vector<Vec3> membrane_places;    ///< of its nodes; empty while it is not in place [m]
+  std::vector<std::uint32_t> membrane_corners;  ///< three nodes for each triangle
 };
 
 /// Reads the ParaView files that a run wrote at `step`. Throws Error when there are none, or when

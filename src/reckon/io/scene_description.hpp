@@ -278,6 +278,12 @@ void describe(Visitor& v, OutputConfig& output) {
          output.contacts);
   v.flag({.name = "surfaces", .meaning = "Writes the grains' true surfaces beside the grains."},
          output.surfaces);
+  if (v.visits(output.ranks)) {  // as sample
+    v.flag({.name = "ranks",
+            .meaning = "Writes which rank has each grain, beside the grains: all else in a run's "
+                       "files is the same for any number of ranks."},
+           output.ranks);
+  }
   v.integer({.name = "checkpoint_interval",
              .range = at_least(0),
              .unit_note = "steps",

@@ -78,9 +78,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// `free_volume`: some walls give way, so that dilatancy means something.
-std::string paragraph(const std::string& name, bool free_volume, const Columns& columns,
-                      const std::vector<std::size_t>& rows) {
+std::optional<StageFinding> finding(const std::string& name, bool free_volume,
+                                    const Columns& columns, const std::vector<std::size_t>& rows) {
   const std::string strain = axial(columns, rows.back());
   if (strain.starts_with("cell_shear"))
     free_volume = false;  // the angle is of triaxial compression
@@ -94,30 +93,40 @@ std::string paragraph(const std::string& name, bool free_volume, const Columns& 
     disagreements.push_back(disagreement(columns, row));
   }
   const auto summary = summarize(curve);
-  if (!summary) return {};
+  if (!summary) return std::nullopt;
+  return StageFinding{
+      .stage = name,
+      .free_volume = free_volume,
+      .has_walls = !columns.has("cell_edge_x_m"),
+      .shear = *summary,
+      .axial_strain = curve.back().axial_strain,
+      .void_ratio = columns.at(rows.back(), "void_ratio"),
+      .stress_disagreement = median(disagreements),
+      .largest_disagreement = *std::max_element(disagreements.begin(), disagreements.end()),
+      .inertial_number = median(inertial_numbers)};
+}
+
+std::string paragraph(const StageFinding& f) {
   const auto dilatancy = [&](const char* words, double angle) {
-    return free_volume ? fmt::format("{}{:.1f} deg", words, angle) : std::string{};
+    return f.free_volume ? fmt::format("{}{:.1f} deg", words, angle) : std::string{};
   };
   std::string text = fmt::format("  {}: peak friction angle {:.1f} deg at {:.2f} % strain{}\n",
-                                 name, summary->peak_friction_angle, 100 * summary->strain_at_peak,
-                                 dilatancy(", dilatancy angle there ", summary->dilatancy_angle));
+                                 f.stage, f.shear.peak_friction_angle, 100 * f.shear.strain_at_peak,
+                                 dilatancy(", dilatancy angle there ", f.shear.dilatancy_angle));
   text += fmt::format("    at {:.1f} % strain: friction angle {:.1f} deg{}, void ratio {:.3f}\n",
-                      100 * curve.back().axial_strain, summary->final_friction_angle,
-                      dilatancy(", dilatancy angle ", summary->final_dilatancy_angle),
-                      columns.at(rows.back(), "void_ratio"));
-  if (!columns.has("cell_edge_x_m")) {
+                      100 * f.axial_strain, f.shear.final_friction_angle,
+                      dilatancy(", dilatancy angle ", f.shear.final_dilatancy_angle), f.void_ratio);
+  if (f.has_walls) {
     text += fmt::format(
         "    stress by contacts and by walls: {:.2g} % apart in the median row, {:.2g} % at most\n",
-        100 * median(disagreements),
-        100 * *std::max_element(disagreements.begin(), disagreements.end()));
+        100 * f.stress_disagreement, 100 * f.largest_disagreement);
   }
-  const double inertial_number = median(inertial_numbers);
   text += fmt::format(
-      "    inertial number {:.1g}{}\n", inertial_number,
-      inertial_number > quasi_static_inertial_number
-          ? fmt::format(": too fast to count as quasi-static (above {}); lower the rate",
-                        quasi_static_inertial_number)
-          : ": quasi-static");
+      "    inertial number {:.1g}{}\n", f.inertial_number,
+      f.quasi_static()
+          ? ": quasi-static"
+          : fmt::format(": too fast to count as quasi-static (above {}); lower the rate",
+                        quasi_static_inertial_number));
   return text;
 }
 
@@ -135,10 +144,10 @@ std::string stage_note(const std::string& name, std::uint64_t steps, bool in_tim
   return text;
 }
 
-std::string stage_report(const SceneConfig& scene, const HistoryTable& history) {
+std::vector<StageFinding> stage_findings(const SceneConfig& scene, const HistoryTable& history) {
   const Columns columns{history};
   if (!columns.has("stage") || !columns.has("inertial_number")) return {};
-  std::string text;
+  std::vector<StageFinding> findings;
   for (std::size_t n = 0; n < scene.stages.size(); ++n) {
     const auto& controls = scene.stages[n].controls;
     const auto held = std::count_if(controls.begin(), controls.end(), [](const ControlConfig& c) {
@@ -153,8 +162,16 @@ std::string stage_report(const SceneConfig& scene, const HistoryTable& history) 
     const bool bulges =
         std::any_of(scene.stages.begin(), scene.stages.begin() + static_cast<std::ptrdiff_t>(n) + 1,
                     [](const StageConfig& s) { return s.membrane.has_value(); });
-    if (!rows.empty()) text += paragraph(scene.stages[n].name, held > 0 || bulges, columns, rows);
+    if (rows.empty()) continue;
+    const auto found = finding(scene.stages[n].name, held > 0 || bulges, columns, rows);
+    if (found) findings.push_back(*found);
   }
+  return findings;
+}
+
+std::string stage_report(const SceneConfig& scene, const HistoryTable& history) {
+  std::string text;
+  for (const StageFinding& found : stage_findings(scene, history)) text += paragraph(found);
   return text;
 }
 

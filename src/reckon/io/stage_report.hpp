@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "reckon/analysis/sample.hpp"
+#include "reckon/analysis/shear_curve.hpp"
 #include "reckon/io/history.hpp"
 #include "reckon/simulation/config.hpp"
 
@@ -19,9 +21,28 @@ namespace reckon {
 /// Above this a stage counts as too fast for a quasi-static test (da Cruz et al. 2005).
 constexpr double quasi_static_inertial_number = 1e-3;
 
-/// What the stages that drive walls by strain rate or speed have shown, a paragraph each: peak
-/// friction angle and dilatancy, how well stress by contacts and by walls agree, and whether it was
-/// quasi-static. Empty without such stages, and where the history has no columns of the sample.
+/// What a stage that drives walls by strain rate or speed has shown.
+struct StageFinding {
+  std::string stage;
+  bool free_volume{false};  ///< some walls give way, so that dilatancy means something
+  bool has_walls{true};     ///< a periodic cell has none to compare stresses with
+  ShearSummary shear;
+  double axial_strain{0};          ///< at its end
+  double void_ratio{0};            ///< at its end
+  double stress_disagreement{0};   ///< of contacts and walls, over the mean stress: median row
+  double largest_disagreement{0};  ///< likewise: the worst row
+  double inertial_number{0};       ///< median
+
+  [[nodiscard]] bool quasi_static() const {
+    return inertial_number <= quasi_static_inertial_number;
+  }
+};
+
+/// Empty without such stages, and where the history has no columns of the sample.
+[[nodiscard]] std::vector<StageFinding> stage_findings(const SceneConfig& scene,
+                                                       const HistoryTable& history);
+
+/// The findings, a paragraph each.
 [[nodiscard]] std::string stage_report(const SceneConfig& scene, const HistoryTable& history);
 
 }  // namespace reckon

@@ -16,7 +16,6 @@
 #include "reckon/core/file.hpp"
 #include "reckon/io/history.hpp"
 #include "reckon/io/saved_fields.hpp"
-#include "reckon/io/scene_reader.hpp"
 #include "reckon/io/stage_report.hpp"
 #include "reckon/report/piece.hpp"
 #include "reckon/report/run_shapes.hpp"
@@ -27,18 +26,6 @@ namespace {
 
 std::string text_of(const std::filesystem::path& file) {
   return std::filesystem::exists(file) ? read_file(file) : std::string{};
-}
-
-/// The scene as it ran, without its files.
-SceneConfig scene_of(const RunFolder& folder) {
-  if (!std::filesystem::exists(folder.resolved())) {
-    throw Error{{.place = folder.root().string(),
-                 .problem = "this is not the folder of a run",
-                 .reason = "it has no scene_resolved.toml",
-                 .fix = "Name a folder that `reckon run` has written."}};
-  }
-  // Faults of files that have gone since do not matter here.
-  return read_scene_text(read_file(folder.resolved()), folder.root()).config;
 }
 
 double to_number(const std::string& cell) {
@@ -88,6 +75,7 @@ void add_walls(const SceneConfig& scene, JsonWriter& json) {
   for (const Wall& wall : make_walls(scene)) {
     json.begin_object();
     json.value("name", wall.name);
+    json.value("mould", scene.membrane && scene.membrane->mould == wall.name);
     if (const auto* plane = std::get_if<PlaneSurface>(&wall.surface)) {
       add_vector(json, "point", plane->point);
       add_vector(json, "normal", plane->normal_unit);
@@ -177,16 +165,6 @@ void add_shapes(const RunShapes& shapes, Piece& piece) {
   coarse.hand_over(piece, "coarse");
 }
 
-/// How many grains have each shape at a saved step.
-std::vector<std::uint64_t> grains_by_shape(const RunFolder& folder, std::uint64_t step) {
-  std::vector<std::uint64_t> counts;
-  for (const SavedGrain& grain : read_fields(folder, step).grains) {
-    counts.resize(std::max<std::size_t>(counts.size(), grain.shape.get() + std::size_t{1}));
-    ++counts[grain.shape.get()];
-  }
-  return counts;
-}
-
 }  // namespace
 
 std::vector<std::uint64_t> spread_steps(const std::vector<std::uint64_t>& steps, std::size_t most) {
@@ -207,7 +185,7 @@ std::vector<std::uint64_t> RunPieces::frame_steps() const {
 }
 
 std::string RunPieces::head() {
-  const SceneConfig scene = scene_of(folder_);
+  const SceneConfig scene = scene_of_run(folder_);
   Piece piece;
   JsonWriter& json = piece.json();
   std::filesystem::path root = std::filesystem::absolute(folder_.root()).lexically_normal();
@@ -287,6 +265,9 @@ std::string RunPieces::frame(std::uint64_t step) const {
   std::vector<float> walls;
   for (const Vec3& displacement : fields.wall_displacement) append(walls, displacement);
 
+  std::vector<float> membrane;
+  for (const Vec3& place : fields.membrane_places) append(membrane, place);
+
   Piece piece;
   piece.json().value("step", fields.step);
   piece.json().value("time", fields.time);
@@ -308,6 +289,8 @@ std::string RunPieces::frame(std::uint64_t step) const {
   piece.add("deepest", deepest);
   piece.add("nodes", nodes);
   piece.add("wall_displacement", walls, 3);
+  piece.add("membrane_position", membrane, 3);
+  piece.add("membrane_corners", fields.membrane_corners, 3);
   return piece.finish();
 }
 

@@ -3,13 +3,17 @@
 #include "reckon/report/run_shapes.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <numeric>
 #include <span>
 
 #include "reckon/avatar/shape_catalog.hpp"
 #include "reckon/avatar/shape_statistics.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/core/file.hpp"
 #include "reckon/io/run_surfaces.hpp"
+#include "reckon/io/saved_fields.hpp"
+#include "reckon/io/scene_reader.hpp"
 
 namespace reckon {
 namespace {
@@ -52,6 +56,26 @@ RunShape make_shape(const Shape& shape, bool with_surface, std::size_t triangles
 }
 
 }  // namespace
+
+SceneConfig scene_of_run(const RunFolder& folder) {
+  if (!std::filesystem::exists(folder.resolved())) {
+    throw Error{{.place = folder.root().string(),
+                 .problem = "this is not the folder of a run",
+                 .reason = "it has no scene_resolved.toml",
+                 .fix = "Name a folder that `reckon run` has written."}};
+  }
+  // Faults of files that have gone since do not matter here.
+  return read_scene_text(read_file(folder.resolved()), folder.root()).config;
+}
+
+std::vector<std::uint64_t> grains_by_shape(const RunFolder& folder, std::uint64_t step) {
+  std::vector<std::uint64_t> counts;
+  for (const SavedGrain& grain : read_fields(folder, step).grains) {
+    counts.resize(std::max<std::size_t>(counts.size(), grain.shape.get() + std::size_t{1}));
+    ++counts[grain.shape.get()];
+  }
+  return counts;
+}
 
 RunShapes read_run_shapes(const RunFolder& folder, const SceneConfig& scene,
                           const std::vector<std::uint64_t>& grains) {

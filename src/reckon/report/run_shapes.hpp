@@ -13,6 +13,13 @@
 
 namespace reckon {
 
+/// The scene as it ran, without its files. Throws Error where the folder holds no run.
+[[nodiscard]] SceneConfig scene_of_run(const RunFolder& folder);
+
+/// How many grains have each shape at a saved step.
+[[nodiscard]] std::vector<std::uint64_t> grains_by_shape(const RunFolder& folder,
+                                                         std::uint64_t step);
+
 /// One shape as the page shows it.
 struct RunShape {
   std::string name;

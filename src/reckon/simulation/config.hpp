@@ -233,6 +233,7 @@ struct OutputConfig {
   bool sample{false};                    ///< stress, strain, fabric in the history
   bool contacts{true};                   ///< write contacts beside grains
   bool surfaces{false};                  ///< write true grain surfaces beside grains
+  bool ranks{false};                     ///< write which rank has each grain
   std::uint64_t checkpoint_interval{0};  ///< steps; 0: only at the end
 };
 

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "reckon/io/history.hpp"
+#include "reckon/io/saved_fields.hpp"
 #include "unit/io/run_scene_fixture.hpp"
 
 namespace reckon {
@@ -121,6 +123,24 @@ TEST_F(MembraneRunTest, StressesAgreeAndEnergyBalances) {
   EXPECT_NEAR(stress.back(), on_walls.back(), 0.05 * stress.back());
   EXPECT_GT(stress.back(), 3e4);
   EXPECT_LT(std::abs(report.energy_error), 0.03 * report.energy_turnover);
+}
+
+TEST_F(MembraneRunTest, SavedFieldsHaveItsTrianglesWhileItIsInPlace) {
+  (void)run(scene(), {.folder = root_ / "whole"});
+  const RunFolder folder{root_ / "whole"};
+  EXPECT_TRUE(read_fields(folder, 800).membrane_places.empty());
+  const SavedFields fields = read_fields(folder, 1400);
+  const std::size_t nodes = fields.membrane_places.size();
+  const std::size_t triangles = fields.membrane_corners.size() / 3;
+  // Rings of nodes with two triangles for each node but those of the last ring.
+  const std::size_t around = nodes - triangles / 2;
+  EXPECT_EQ(2 * (nodes - around), triangles);
+  EXPECT_NEAR(static_cast<double>(around), 2 * std::numbers::pi * 4 / 0.5, 2);
+  const auto [low, high] =
+      std::minmax_element(fields.membrane_places.begin(), fields.membrane_places.end(),
+                          [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
+  EXPECT_NEAR(low->z, 0, 1e-5);
+  EXPECT_NEAR(high->z, 0.025 + fields.wall_displacement[2].z, 1e-5);
 }
 
 TEST_F(MembraneRunTest, FaultsAreFound) {

@@ -32,6 +32,8 @@ export class Frame {
   readonly deepest: Float32Array;
   readonly nodes: Uint16Array;
   readonly wallDisplacement: Float32Array;
+  readonly membranePosition: Float32Array; // empty where there is none
+  readonly membraneCorners: Uint32Array; // three nodes for each triangle
   private stresses: GrainStress | null = null;
 
   constructor(piece: Piece<FrameText>) {
@@ -55,6 +57,8 @@ export class Frame {
     this.deepest = piece.array("deepest") as Float32Array;
     this.nodes = piece.array("nodes") as Uint16Array;
     this.wallDisplacement = piece.array("wall_displacement") as Float32Array;
+    this.membranePosition = piece.array("membrane_position") as Float32Array;
+    this.membraneCorners = piece.array("membrane_corners") as Uint32Array;
   }
 
   get grains(): number {

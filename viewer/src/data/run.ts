@@ -9,6 +9,7 @@ export type Vector = [number, number, number];
 
 export interface Wall {
   name: string;
+  mould?: boolean; // a membrane takes its place
   point: Vector;
   normal?: Vector; // of a plane, to the side of the grains
   axis?: Vector; // of a cylinder

@@ -87,6 +87,7 @@ export function wallLines(walls: readonly Wall[], frame: Frame): Point[] {
   }
   const lines: Point[] = [];
   for (const wall of standing) {
+    if (wall.mould && frame.membraneCorners.length > 0) continue; // the membrane is in its place
     if (wall.normal) {
       const normal: Point = [...wall.normal];
       const [u, v] = across(normal);

@@ -55,6 +55,12 @@ export class GrainSection {
     "aria-label": "Place of the slicing plane",
     disabled: true,
   });
+  private readonly membraneBox = h("input", {
+    type: "checkbox",
+    checked: true,
+    onchange: () => this.view.showMembrane(this.membraneBox.checked),
+  });
+  private readonly membraneField = h("label", { class: "field" }, h("span", {}, "Membrane"), this.membraneBox);
   private readonly note = h("p", { class: "hint" });
 
   constructor(private runs: Run[]) {
@@ -166,6 +172,7 @@ export class GrainSection {
     if (run !== this.run || at !== this.wanted) return; // something newer was asked for meanwhile
     this.frameNumber = at;
     this.frame = frame;
+    this.membraneField.hidden = !run.text.walls.some(({ mould }) => mould);
     this.view.setFrame(frame);
     this.colour();
     this.showChains();
@@ -282,6 +289,7 @@ export class GrainSection {
       h("label", { class: "field" }, h("span", {}, "Hold the range"), hold),
       style,
       h("label", { class: "field" }, h("span", {}, "Contact forces"), chains),
+      this.membraneField,
       chooser(
         "Slice",
         ["none", "x", "y", "z"].map((value) => ({ value, label: value === "none" ? "none" : `across ${value}` })),

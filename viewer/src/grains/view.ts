@@ -32,8 +32,10 @@ import type { Run } from "../data/run.ts";
 import type { Rgb } from "../colours.ts";
 import { boundsOf, wallLines } from "./outlines.ts";
 import { listenToKeys, listenToPointer } from "./input.ts";
-import { merged } from "./merged.ts";
+import { MembraneView } from "./membrane.ts";
+import { Detail, Pace } from "./pace.ts";
 import { pickGrain } from "./pick.ts";
+import { StandIns } from "./stand_ins.ts";
 import { ball, type ShapeSurfaces, type Surface, unpackSurfaces } from "./surfaces.ts";
 
 export type GrainStyle = "solid" | "faint" | "hidden";
@@ -48,7 +50,6 @@ export interface Slice {
 }
 
 const pickedColour = 0xd81b60;
-const slowFrame = 55; // [ms]; slower machines get the coarse surfaces while the view moves
 const settleTime = 250; // [ms] after the last move until the fine ones come back
 
 function geometryOf(surface: Surface): BufferGeometry {
@@ -87,12 +88,8 @@ export class GrainView {
   private readonly controls: OrbitControls;
   private readonly light = new DirectionalLight(0xffffff, 1.9);
   private readonly grainMaterial = new MeshLambertMaterial();
-  /** Coarse surfaces in one, drawn instead of the fine ones where these would be slow. */
-  private readonly standIn = new Mesh(
-    new BufferGeometry(),
-    new MeshLambertMaterial({ vertexColors: true }),
-  );
-  private standInOutdated = true;
+  private readonly standIns = new StandIns();
+  private readonly membrane = new MembraneView();
   private colourOf: (row: number) => Rgb = () => [0.8, 0.8, 0.8];
   private colours = new Float32Array(); // three per row
   private readonly plane = new Plane();
@@ -119,7 +116,8 @@ export class GrainView {
   private busy = false; // the graphics card is at work
   private outdated = false; // and what it draws has changed meanwhile
   private held = false; // the pointer is down
-  private coarse = false;
+  private detail = Detail.fine;
+  private readonly pace = new Pace();
   private settle = 0;
 
   constructor(canvas: HTMLCanvasElement) {
@@ -134,10 +132,9 @@ export class GrainView {
     this.camera.add(this.light);
     this.light.position.set(-0.6, 0.9, 1);
     this.highlight.visible = false;
-    this.standIn.visible = false;
-    this.standIn.frustumCulled = false;
-    this.scene.add(this.highlight, this.standIn);
-    for (const material of [this.grainMaterial, this.standIn.material]) paintCutsFlat(material);
+    const { coarse, balls } = this.standIns;
+    this.scene.add(this.highlight, coarse, balls, this.membrane.group);
+    for (const material of [this.grainMaterial, coarse.material]) paintCutsFlat(material);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener("change", () => this.moved());
@@ -173,6 +170,7 @@ export class GrainView {
     this.frame = frame;
     this.placeGrains(frame);
     this.placeWalls(frame);
+    this.membrane.setFrame(frame);
     this.applySlice();
     this.placeHighlight();
     this.draw();
@@ -199,7 +197,7 @@ export class GrainView {
       });
       mesh.instanceColor.needsUpdate = true;
     }
-    this.standInOutdated = true;
+    this.standIns.invalidate();
     this.chooseSurfaces();
   }
 
@@ -242,12 +240,13 @@ export class GrainView {
 
   setStyle(style: GrainStyle): void {
     this.style = style;
-    const { material } = this.standIn;
-    material.transparent = style === "faint";
-    material.opacity = style === "faint" ? 0.14 : 1;
-    material.depthWrite = style === "solid";
-    material.needsUpdate = true;
+    this.standIns.setFaint(style === "faint", style === "solid");
     this.chooseSurfaces();
+    this.draw();
+  }
+
+  showMembrane(shown: boolean): void {
+    this.membrane.group.visible = shown;
     this.draw();
   }
 
@@ -290,6 +289,7 @@ export class GrainView {
   }
 
   draw(): void {
+    this.canvas.dataset.busy = "true";
     if (this.pending) return;
     this.pending = true;
     requestAnimationFrame(() => {
@@ -300,7 +300,10 @@ export class GrainView {
 
   /** Draws, unless the graphics card is still at the last picture; then as soon as it is done. */
   private drawNow(): void {
-    if (this.canvas.clientWidth === 0) return;
+    if (this.canvas.clientWidth === 0) {
+      delete this.canvas.dataset.busy;
+      return;
+    }
     if (this.busy) {
       this.outdated = true;
       return;
@@ -308,6 +311,7 @@ export class GrainView {
     this.outdated = false;
     this.busy = true;
     const start = performance.now();
+    const { detail } = this;
     this.renderer.render(this.scene, this.camera);
     const context = this.renderer.getContext() as WebGL2RenderingContext;
     const fence = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -321,50 +325,49 @@ export class GrainView {
       context.deleteSync(fence);
       this.busy = false;
       this.frameTime = performance.now() - start;
+      this.pace.learn(detail, this.frameTime);
+      const { calls, triangles, points } = this.renderer.info.render;
+      Object.assign(this.canvas.dataset, { detail: Detail[detail], calls, triangles, points });
       this.canvas.dataset.frameTime = this.frameTime.toFixed(1);
       this.canvas.dataset.drawn = String(Number(this.canvas.dataset.drawn ?? 0) + 1);
       if (this.outdated) this.draw();
+      else if (!this.pending) delete this.canvas.dataset.busy;
     };
     look();
   }
 
-  /** While the view moves, slow machines draw coarse surfaces; fine ones come when it rests. */
+  /** While the view moves, slow machines draw less of each grain; all of it comes when it rests. */
   private moved(): void {
-    if (!this.coarse && this.frameTime > slowFrame) this.setCoarse(true);
+    this.setDetail(this.pace.moving);
     window.clearTimeout(this.settle);
     this.settle = window.setTimeout(() => this.rest(), settleTime);
     this.draw();
   }
   private rest(): void {
     if (this.held) this.settle = window.setTimeout(() => this.rest(), settleTime);
-    else this.setCoarse(false);
+    else this.setDetail(Detail.fine);
   }
-  private setCoarse(coarse: boolean): void {
-    if (coarse === this.coarse) return;
-    this.coarse = coarse;
+  private setDetail(detail: Detail): void {
+    if (detail === this.detail) return;
+    this.detail = detail;
     this.chooseSurfaces();
     this.draw();
   }
   /** Grains that are seen through need no details, and many layers of them cost much. */
   private chooseSurfaces(): void {
-    const frame = this.frame;
-    const coarse = this.coarse || this.style === "faint";
-    this.standIn.visible = coarse && this.style !== "hidden";
-    for (const { mesh } of this.meshes) mesh.visible = !coarse && this.style !== "hidden";
-    if (!frame || !this.standIn.visible || !this.standInOutdated) return;
-    const all = merged(
+    const { frame, style } = this;
+    const detail = style === "faint" ? Math.max(this.detail, Detail.coarse) : this.detail;
+    const shown = frame && style !== "hidden";
+    for (const { mesh } of this.meshes) mesh.visible = Boolean(shown) && detail === Detail.fine;
+    this.standIns.show(
+      shown ? detail : Detail.fine,
       frame,
-      (row) => ({ surface: this.shapeOf(frame.shape[row]).coarse, scale: this.scaleOf(frame, row) }),
+      (row) => ({
+        surface: this.shapeOf(frame?.shape[row] ?? 0).coarse,
+        scale: frame ? this.scaleOf(frame, row) : 1,
+      }),
       this.colours,
     );
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(all.position, 3));
-    geometry.setAttribute("normal", new BufferAttribute(all.normal, 3));
-    geometry.setAttribute("color", new BufferAttribute(all.colour, 3));
-    geometry.setIndex(new BufferAttribute(all.index, 1));
-    this.standIn.geometry.dispose();
-    this.standIn.geometry = geometry;
-    this.standInOutdated = false;
   }
   private remove(mesh: InstancedMesh): void {
     this.scene.remove(mesh);
@@ -378,6 +381,7 @@ export class GrainView {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
+    this.standIns.setPixels(this.renderer.domElement.height, this.camera.fov);
     this.draw();
   }
 
@@ -466,12 +470,12 @@ export class GrainView {
       this.plane.set(new Vector3().setComponent(axis, side), -side * at);
       planes.push(this.plane);
     }
-    this.grainMaterial.clippingPlanes = planes;
-    this.standIn.material.clippingPlanes = planes;
-    this.chainMaterial.clippingPlanes = planes;
-    (this.highlight.material as MeshLambertMaterial).clippingPlanes = planes;
+    const cut = [this.grainMaterial, this.chainMaterial, this.highlight.material as MeshLambertMaterial];
+    for (const material of [...cut, ...this.standIns.materials, ...this.membrane.materials]) {
+      material.clippingPlanes = planes;
+    }
     const side = planes.length > 0 ? DoubleSide : FrontSide;
-    for (const material of [this.grainMaterial, this.standIn.material]) {
+    for (const material of [this.grainMaterial, this.standIns.coarse.material]) {
       if (material.side === side) continue;
       material.side = side;
       material.needsUpdate = true;

@@ -102,8 +102,10 @@ export async function open(browser, url, { width = 1280, height = 900 } = {}) {
 export async function settled(page) {
   let before = "";
   for (let tries = 0; tries < 100; ++tries) {
-    const drawn = await page.locator("#view canvas").getAttribute("data-drawn");
-    if (drawn !== null && drawn === before) return;
+    const { drawn = null, busy } = await page
+      .locator("#view canvas")
+      .evaluate((canvas) => ({ drawn: canvas.dataset.drawn, busy: canvas.dataset.busy === "true" }));
+    if (drawn !== null && drawn === before && !busy) return;
     before = drawn ?? "";
     await page.waitForTimeout(400);
   }

@@ -26,6 +26,10 @@ before(async () => {
         .replaceAll('"10 mm", "10 mm", "12 mm"', '"42 mm", "42 mm", "48 mm"'),
       steps: 20,
     },
+    wrapped: {
+      scene: readFileSync(new URL("../../../tests/paraview/scene.toml", import.meta.url), "utf8")
+        .replace("grains.h5", "sand.h5").replaceAll('"75 mm"', '"90 mm"').replace("surfaces = true, ranks = true, ", ""),
+    },
   });
   reckon(runs.folder, "report", "rough.run");
   report = url("rough.run/report.html");
@@ -223,8 +227,102 @@ test("without its shape library a run is shown as spheres, and says so", async (
   await page.close();
 });
 
-test("five thousand grains load, draw, turn and are picked", async () => {
+test("a membrane is drawn where it is at each saved time", async () => {
+  reckon(runs.folder, "report", "wrapped.run");
+  const { page, faults } = await open(browser, url("wrapped.run/report.html"));
+  const box = field(page, "Membrane", "input");
+  const look = async () => {
+    await settled(page);
+    const calls = Number(await page.locator(canvas).getAttribute("data-calls"));
+    return { calls, ...(await pixels(page, canvas)) };
+  };
+  const shown = await look();
+  await box.uncheck();
+  const hidden = await look();
+  assert.equal(shown.calls - hidden.calls, 3, "both sides of a skin, and its net");
+  assert.notEqual(shown.hash, hidden.hash);
+  await box.check();
+  await page.locator('input[aria-label="Saved time"]').focus();
+  await page.keyboard.press("Home"); // the mould still stands
+  await page.waitForSelector('#view[data-step="0"]');
+  assert.equal((await look()).calls, hidden.calls);
+  const other = await open(browser, report);
+  assert.equal(await field(other.page, "Membrane", "input").isVisible(), false);
+  assert.deepEqual([...faults, ...other.faults], []);
+  await Promise.all([page.close(), other.page.close()]);
+});
+
+/** Counts what a page asks of WebGL: draw calls, and bytes of buffers handed over. */
+function countWork() {
+  const work = { draws: 0, uploads: 0 };
+  window.webglWork = work;
+  const prototype = WebGL2RenderingContext.prototype;
+  const wrap = (name, count) => {
+    const original = prototype[name];
+    prototype[name] = function (...given) {
+      count(given);
+      return original.apply(this, given);
+    };
+  };
+  for (const name of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced"]) {
+    wrap(name, () => ++work.draws);
+  }
+  wrap("bufferData", ([, data]) => (work.uploads += data.byteLength ?? data));
+  wrap("bufferSubData", ([, , data]) => (work.uploads += data.byteLength));
+}
+
+test("a picture of five thousand grains takes a few calls, and turning hands nothing over", async () => {
   reckon(runs.folder, "report", "many.run");
+  const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
+  await page.addInitScript(countWork);
+  await page.goto(url("many.run/report.html"));
+  const atRest = () =>
+    page.waitForFunction(
+      (selector) => {
+        const { detail, triangles } = document.querySelector(selector).dataset;
+        return detail === "fine" && Number(triangles) > 1e5;
+      },
+      canvas,
+      { timeout: 60000 },
+    );
+  await atRest();
+  const state = () => page.evaluate((selector) => ({
+    ...document.querySelector(selector).dataset,
+    ...window.webglWork,
+  }), canvas);
+  const rest = await state();
+  assert.ok(Number(rest.calls) <= 8 + 3, `${rest.calls} draw calls for eight shapes`);
+  const box = await page.locator(canvas).boundingBox();
+  await page.mouse.move(box.x + 200, box.y + 200);
+  await page.mouse.down();
+  const turn = async (from) => {
+    for (let n = 0; n < 12; ++n) {
+      await page.mouse.move(box.x + from + 5 * n, box.y + 200 + n);
+      await page.waitForTimeout(60);
+    }
+  };
+  await turn(200); // finds the detail that keeps pace
+  await turn(260);
+  const before = await state();
+  await turn(320);
+  const after = await state();
+  const pictures = Number(after.drawn) - Number(before.drawn);
+  assert.ok(pictures > 0);
+  if (before.detail === after.detail) {
+    assert.equal(after.uploads, before.uploads, "buffers were handed over again");
+    assert.ok((after.draws - before.draws) / (pictures + 1) <= 8 + 3);
+  }
+  if (after.detail === "balls") {
+    assert.equal(after.points, "5000");
+    assert.equal(after.triangles, "0");
+  }
+  await page.mouse.up();
+  await atRest();
+  console.log(`note: 5000 grains: drawn as ${after.detail} in ${after.calls} calls while turning, as ${rest.triangles} triangles in ${rest.calls} calls at rest`);
+  await page.close();
+});
+
+test("five thousand grains load, draw, turn and are picked", async () => {
   const began = Date.now();
   const { page, faults } = await open(browser, url("many.run/report.html"));
   const ready = Date.now() - began;

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "paraview_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "reckon/report/paraview_state.hpp"
+
+namespace reckon::app {
+
+void add_paraview_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("paraview", "Write a state with which ParaView draws a run at once");
+  auto folder = std::make_shared<std::string>();
+  command->add_option("run", *folder, "Folder of a run")->required();
+  command->footer(
+      "Files go to the folder paraview in the run's. A run under way can be drawn too.\n\n"
+      "Examples:\n"
+      "  reckon paraview settle.run\n"
+      "  paraview --script=settle.run/paraview/state.py\n"
+      "  pvpython settle.run/paraview/state.py settled.png");
+  command->callback([folder] {
+    const ParaviewState state = write_paraview_state(RunFolder{*folder});
+    if (!state.missing.empty()) {
+      fmt::print("Grains will be spheres of equal volume: {}\n", state.missing);
+    }
+    fmt::print("{}: {} shapes; draw the run with\n  paraview --script={}\n", state.script.string(),
+               state.shapes, state.script.string());
+  });
+}
+
+}  // namespace reckon::app
