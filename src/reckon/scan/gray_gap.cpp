@@ -69,7 +69,7 @@ class Across {
   [[nodiscard]] double at(int u, int v) const { return values_[place(u, v)]; }
 
  private:
-  [[nodiscard]] std::size_t side() const { return static_cast<std::size_t>(2 * radius_ + 1); }
+  [[nodiscard]] std::size_t side() const { return 2 * static_cast<std::size_t>(radius_) + 1; }
   [[nodiscard]] std::size_t place(int u, int v) const {
     return static_cast<std::size_t>(u + radius_) * side() + static_cast<std::size_t>(v + radius_);
   }
@@ -138,10 +138,9 @@ Paraboloid fit_paraboloid(const Across& widths, int center_u, int center_v, int 
 
 void EdgeProfile::add(const GrayVolume& gray, const GrayLevels& levels, const Vec3& point_world,
                       const Vec3& normal_world) {
-  for (int n = -half_steps; n <= half_steps; ++n) {
-    const double t = reach / half_steps * n;
-    sum_[static_cast<std::size_t>(n + half_steps)] +=
-        levels.share(value_at(gray, point_world + t * gray.voxel * normal_world));
+  for (std::size_t n = 0; n < sum_.size(); ++n) {
+    const double t = reach / half_steps * static_cast<double>(n) - reach;
+    sum_[n] += levels.share(value_at(gray, point_world + t * gray.voxel * normal_world));
   }
   ++lines_;
 }

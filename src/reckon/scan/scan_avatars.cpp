@@ -69,12 +69,13 @@ Avatar make_avatar(const SegmentedScan& scan, std::uint32_t label, const Labelle
 double measured_spread(const SegmentedScan& scan, const std::vector<double>& solid_gray,
                        const ScannedAssembly& assembly) {
   constexpr std::size_t lines_per_grain = 500;
-  constexpr double look_step = 0.5;  // [voxels]
+  constexpr int looks_per_voxel = 2;
   const LabelVolume& territories = *scan.territories;
   const double voxel = territories.voxel;
   const auto free_before = [&](std::uint32_t label, const Vec3& point, const Vec3& normal) {
-    for (double t = 0; t <= EdgeProfile::reach; t += look_step) {
-      const Vec3 p = (point + t * voxel * normal) / voxel;
+    for (int n = 0; n <= EdgeProfile::reach * looks_per_voxel; ++n) {
+      const double t = static_cast<double>(n) / looks_per_voxel;
+      const Vec3 p = point / voxel + t * normal;
       const auto i = static_cast<std::int32_t>(std::floor(p.x));
       const auto j = static_cast<std::int32_t>(std::floor(p.y));
       const auto k = static_cast<std::int32_t>(std::floor(p.z));
