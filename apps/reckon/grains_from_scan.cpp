@@ -124,6 +124,12 @@ void add_stage_options(CLI::App& command, Options& options) {
           "Necks wider than this share of the smaller grain do not divide; less splits less")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
+  command
+      .add_option("--neck-void", s.split.neck_void,
+                  "Nor do necks that lack less than this share of the grains' own gray; more "
+                  "splits less")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
   command.add_flag("--keep-border", s.keep_border, "Keep grains that the volume's border cuts");
   number("--fewest-voxels", s.fewest_voxels, "Smaller grains are dropped");
 }

@@ -121,7 +121,7 @@ void scan(const Options& options) {
   write_volume(folder / "labels.h5", to_gray(result.labels), VoxelType::uint32);
   save_library(folder / "library.h5", library);
   write_placement(folder / "placement.csv", result.grains);
-  write_contacts(folder / "contacts.csv", near_pairs(shape_views(library), result.grains, 0));
+  write_contacts(folder / "contacts.csv", near_surfaces(shape_views(library), result.grains, 0));
   const auto& dims = result.gray.dims;
   fmt::print("{}: {} grains in {} x {} x {} voxels\n", options.folder,
              human_count(result.grains.size()), dims[0], dims[1], dims[2]);

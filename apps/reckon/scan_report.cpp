@@ -171,16 +171,18 @@ void ScanReport::avatars(const ScannedAssembly& assembly, double voxel) {
              human_count(assembly.shapes.size()), human_duration(seconds),
              static_cast<double>(assembly.shapes.size()) / seconds, diameter / voxel);
   for (const std::string& reason : assembly.refused) fmt::print("left out   {}\n", reason);
-  fmt::print("quality    volume {:.3f} % off the gray values', | |grad phi| - 1 | {:.4f}\n",
+  fmt::print("quality    volume {:.3f} % off the gray values'; | |grad phi| - 1 | {:.4f}\n",
              100 * drift, gradient);
   fmt::print("contacts   {} touch; {} pairs overlap, by {:.3f} voxels at most\n",
              human_count(touching), human_count(overlapping), overlap / voxel);
+  fmt::print("blur       {:.3f} voxels, as the surfaces show it\n", assembly.spread);
   json_.value("avatars", assembly.shapes.size());
   json_.value("refused", assembly.refused.size());
   json_.value("mean_diameter_voxels", diameter / voxel);
   json_.value("volume_drift", drift);
   json_.value("gradient_error", gradient);
   json_.value("contacts", touching);
+  json_.value("blur_voxels", assembly.spread);
   json_.value("overlapping_pairs", overlapping);
   json_.value("deepest_overlap_voxels", overlap / voxel);
 }

@@ -19,15 +19,4 @@ for voxel in 50.8um 33.9um 25.4um; do
   "$reckon" grains scan scene.run --voxel $voxel --out "scan-$voxel"
   "$reckon" grains from-scan "scan-$voxel/volume.h5" --voxel $voxel --out "found-$voxel" --truth "scan-$voxel"
 done
-/usr/bin/python3 - found-*/report.json <<'TABLE'
-import json
-import sys
-
-print("| voxels per diameter | found once | split | joined | volume | sizes | inertia | centre | surface | normals | recall | precision |")
-print("|---|---|---|---|---|---|---|---|---|---|---|---|")
-for t in sorted((json.load(open(name))["truth"] for name in sys.argv[1:]), key=lambda t: t["voxels_per_diameter"]):
-    print(f"| {t['voxels_per_diameter']:.0f} | {t['found_once']} of {t['grains']} | {t['split']} | {t['joined']} "
-          f"| {t['volume_error']:+.2%} | {t['volume_error_absolute']:.2%} | {t['inertia_error']:.2%} "
-          f"| {t['center_error_voxels']:.2f} voxels | {t['surface_error_voxels']:.2f} voxels | {t['normal_error_degrees']:.1f}° "
-          f"| {t['recall']:.1%} | {t['precision']:.1%} |")
-TABLE
+/usr/bin/python3 ../../../examples/scan/table.py found-*/report.json

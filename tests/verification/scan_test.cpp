@@ -36,8 +36,8 @@ TEST(ScanChain, FindsKnownGrainsAtEveryResolution) {
     EXPECT_LT(f.surface_error, 0.12);
     EXPECT_LT(degrees, voxels > 25 ? 4 : 5.5);
     EXPECT_GT(f.true_contacts, 10U);
-    EXPECT_GE(f.recall(), voxels > 35 ? 0.95 : 0.85);
-    EXPECT_GE(f.precision(), voxels > 35 ? 0.95 : 0.85);
+    EXPECT_GE(f.recall(), voxels > 25 ? 0.95 : 0.9);
+    EXPECT_GE(f.precision(), voxels > 25 ? 0.95 : 0.9);
     table.row({f.voxels_per_diameter, f.volume_error_absolute, f.inertia_error, f.center_error,
                f.surface_error, degrees, 1 - f.recall(), 1 - f.precision()});
   }

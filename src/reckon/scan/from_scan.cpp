@@ -165,7 +165,7 @@ class Segmenter {
   void split() {
     begin(ScanStage::split);
     const SplitSettings& s = settings_.split;
-    key_ = key_after(key_, fmt::format("split {} {}", s.least_rise, s.neck));
+    key_ = key_after(key_, fmt::format("split {} {} {}", s.least_rise, s.neck, s.neck_void));
     std::vector<double> numbers(1);
     if (auto known = recall<std::uint32_t>(file_of(ScanStage::split), key_, voxel(), numbers)) {
       scan_.resumed.push_back(ScanStage::split);
@@ -173,7 +173,7 @@ class Segmenter {
       scan_.joined = static_cast<std::uint32_t>(numbers[0]);
       return;
     }
-    SplitGrains split = split_grains(scan_.mask, s);
+    SplitGrains split = split_grains(scan_.mask, s, &scan_.raw, scan_.levels);
     scan_.labels = std::move(split.labels);
     scan_.joined = split.joined;
     store(file_of(ScanStage::split), key_, scan_.labels, {static_cast<double>(scan_.joined)});

@@ -31,44 +31,94 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
+/// A face between two pieces.
 struct Pass {
   std::uint32_t a;
   std::uint32_t b;
   float depth;
-  double width;  // over the depth of the shallower piece
+  double width;   // over the depth of the shallower piece
+  bool is_solid;  // as the gray values tell
 };
+
+/// A mean in the making.
+struct Mean {
+  double sum{0};
+  std::uint64_t count{0};
+
+  void add(double value) {
+    sum += value;
+    ++count;
+  }
+  [[nodiscard]] double value() const { return sum / static_cast<double>(count); }
+};
+
+struct Face {
+  float depth{0};  // at its deepest
+  Mean gray;       // well inside the solid
+};
+
+// What lies less deep is darkened by the surface's own blur.
+constexpr float gray_depth = 2;   // of the voxels of a face that tell its gray [voxels]
+constexpr float solid_depth = 3;  // of the voxels that tell a piece's own solid
+constexpr std::uint64_t fewest_in_neck = 4;
+constexpr std::uint64_t fewest_solid = 30;
+
+std::vector<Pass> list_passes(const LabelVolume& labels, const GrayVolume& depth,
+                              const std::vector<float>& peak, const NeckRules& rules) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Face> faces;
+  for_each_face(labels, [&](std::size_t v, std::size_t w) {
+    const std::uint32_t a = std::min(labels.values[v], labels.values[w]);
+    const std::uint32_t b = std::max(labels.values[v], labels.values[w]);
+    if (a == b || a == 0) return;
+    Face& face = faces[{a, b}];
+    const float here = std::min(depth.values[v], depth.values[w]);
+    face.depth = std::max(face.depth, here);
+    if (rules.gray != nullptr && here >= gray_depth) {
+      face.gray.add(0.5 * (rules.gray->values[v] + rules.gray->values[w]));
+    }
+  });
+  std::vector<Mean> solid(peak.size());
+  for (std::size_t v = 0; rules.gray != nullptr && v < labels.values.size(); ++v) {
+    if (depth.values[v] >= solid_depth) solid[labels.values[v]].add(rules.gray->values[v]);
+  }
+  const auto solid_of = [&](std::uint32_t piece) {
+    return solid[piece].count < fewest_solid ? rules.solid_gray : solid[piece].value();
+  };
+  std::vector<Pass> passes;
+  passes.reserve(faces.size());
+  for (const auto& [pair, face] : faces) {
+    const auto& [a, b] = pair;
+    bool is_solid = false;
+    if (face.gray.count >= fewest_in_neck) {
+      const double pieces = 0.5 * (solid_of(a) + solid_of(b));
+      const double missing = (pieces - face.gray.value()) / (pieces - rules.void_gray);
+      is_solid = missing < rules.largest_void;
+    }
+    const double width = static_cast<double>(face.depth) / std::min(peak[a], peak[b]);
+    passes.push_back({a, b, face.depth, width, is_solid});
+  }
+  std::stable_sort(passes.begin(), passes.end(),
+                   [](const Pass& p, const Pass& q) { return p.width > q.width; });
+  return passes;
+}
 
 }  // namespace
 
-std::uint32_t join_wide_necks(LabelVolume& labels, const GrayVolume& depth, double neck) {
+std::uint32_t join_wide_necks(LabelVolume& labels, const GrayVolume& depth,
+                              const NeckRules& rules) {
   const std::uint32_t most =
       labels.values.empty() ? 0 : *std::max_element(labels.values.begin(), labels.values.end());
   std::vector<float> peak(most + 1, 0);
   for (std::size_t v = 0; v < labels.values.size(); ++v) {
     peak[labels.values[v]] = std::max(peak[labels.values[v]], depth.values[v]);
   }
-  std::map<std::pair<std::uint32_t, std::uint32_t>, float> deepest;
-  for_each_face(labels, [&](std::size_t v, std::size_t w) {
-    const std::uint32_t a = std::min(labels.values[v], labels.values[w]);
-    const std::uint32_t b = std::max(labels.values[v], labels.values[w]);
-    if (a == b || a == 0) return;
-    float& pass = deepest[{a, b}];
-    pass = std::max(pass, std::min(depth.values[v], depth.values[w]));
-  });
-  std::vector<Pass> passes;
-  passes.reserve(deepest.size());
-  for (const auto& [pair, pass] : deepest) {
-    passes.push_back({pair.first, pair.second, pass,
-                      static_cast<double>(pass) / std::min(peak[pair.first], peak[pair.second])});
-  }
-  std::stable_sort(passes.begin(), passes.end(),
-                   [](const Pass& p, const Pass& q) { return p.width > q.width; });
   Sets sets{peak.size()};
   std::uint32_t joined = 0;
-  for (const Pass& pass : passes) {
+  for (const Pass& pass : list_passes(labels, depth, peak, rules)) {
     const std::uint32_t a = sets.find(pass.a);
     const std::uint32_t b = sets.find(pass.b);
-    if (a == b || !(pass.depth > neck * std::min(peak[a], peak[b]))) continue;
+    const double least = pass.is_solid ? std::min(rules.narrow, rules.wide) : rules.wide;
+    if (a == b || !(pass.depth > least * std::min(peak[a], peak[b]))) continue;
     sets.join(std::min(a, b), std::max(a, b));
     peak[std::min(a, b)] = std::max(peak[a], peak[b]);
     ++joined;

@@ -10,11 +10,24 @@
 
 namespace reckon {
 
-/// Joins pieces of a watershed that no real neck divides: two neighbours become one grain when the
-/// pass between them is more than `neck` times as deep as the shallower of both is at its deepest.
-/// The widest necks are joined first. Returns how many pieces were joined to others. Labels keep
-/// the lowest number of their pieces.
-std::uint32_t join_wide_necks(LabelVolume& labels, const GrayVolume& depth, double neck);
+/// Which necks between pieces of a watershed divide no grains.
+struct NeckRules {
+  /// Those wider than this share of the smaller piece: the depth of the pass over the depth where
+  /// the shallower piece is deepest.
+  double wide{0.95};
+  /// With gray values: of those wider than `narrow` also those that are solid, because less than
+  /// this share of the gray between void and the pieces' own solid is missing in the neck. Grains
+  /// that merely touch leave void there, however blurred.
+  double largest_void{0.03};
+  double narrow{0.7};
+  const GrayVolume* gray{nullptr};  ///< as scanned; or null
+  double void_gray{0};
+  double solid_gray{1};  ///< of pieces too small to tell their own
+};
+
+/// Joins pieces that no neck divides, at the widest first. Returns how many pieces were joined to
+/// others. Labels keep the lowest number of their pieces.
+std::uint32_t join_wide_necks(LabelVolume& labels, const GrayVolume& depth, const NeckRules& rules);
 
 /// Gives all labels consecutive numbers in the order of their first voxels. Returns their number.
 std::uint32_t renumber(LabelVolume& labels);

@@ -23,6 +23,10 @@ struct Posed {
   }
 };
 
+Posed pose(std::span<const ShapeView> shapes, const GrainState& grain) {
+  return {shapes[grain.shape.get()], rotation_matrix(grain.orientation), grain.position};
+}
+
 /// Looks for the node of `nodes` that lies deepest in `field`; `sign` turns the normal from a to b.
 void search(const Posed& nodes, const Posed& field, double sign, NearPair& best) {
   for (const NodeCluster& cluster : nodes.shape.clusters) {
@@ -40,53 +44,6 @@ void search(const Posed& nodes, const Posed& field, double sign, NearPair& best)
   }
 }
 
-/// Trilinear interpolation between voxel centres; voxels outside count as the nearest inside.
-double value_at(const GrayVolume& gray, const Vec3& world) {
-  std::array<std::int32_t, 3> cell{};
-  std::array<double, 3> place{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    const double g =
-        std::clamp(world[axis] / gray.voxel - 0.5, 0.0, static_cast<double>(gray.dims[a] - 1));
-    cell[a] = std::min(static_cast<std::int32_t>(g), std::max(gray.dims[a] - 2, 0));
-    place[a] = g - cell[a];
-  }
-  double value = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const std::array<int, 3> step{corner & 1, corner >> 1 & 1, corner >> 2};
-    double weight = 1;
-    std::array<std::int32_t, 3> at = cell;
-    for (std::size_t a = 0; a < 3; ++a) {
-      weight *= step[a] == 1 ? place[a] : 1 - place[a];
-      at[a] = std::min(cell[a] + step[a], gray.dims[a] - 1);
-    }
-    value += weight * gray.values[gray.index(at[0], at[1], at[2])];
-  }
-  return value;
-}
-
-/// The void share summed up along a line through `center` [voxels].
-double void_along_line(const GrayVolume& gray, const GrayLevels& levels, const Vec3& center,
-                       const Vec3& direction) {
-  constexpr int half_steps = 14;
-  constexpr double step = 0.25;  // [voxels]
-  double sum = 0;
-  for (int n = -half_steps; n <= half_steps; ++n) {
-    const double t = step * n;
-    sum += step * (1 - levels.share(value_at(gray, center + t * gray.voxel * direction)));
-  }
-  return sum;
-}
-
-template <class Visit>
-void for_each_in_disk(int radius, Visit&& visit) {
-  for (int u = -radius; u <= radius; ++u) {
-    for (int v = -radius; v <= radius; ++v) {
-      if (u * u + v * v <= radius * radius) visit(u, v);
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<NearPair> near_pairs(std::span<const ShapeView> shapes,
@@ -100,10 +57,7 @@ std::vector<NearPair> near_pairs(std::span<const ShapeView> shapes,
                    [&](std::uint32_t n, std::uint32_t m) { return low_x(n) < low_x(m); });
   std::vector<std::vector<NearPair>> found(grains.size());
   parallel_for(order.size(), 16, [&](std::size_t o) {
-    const auto posed = [&](std::uint32_t n) {
-      return Posed{shapes[grains[n].shape.get()], rotation_matrix(grains[n].orientation),
-                   grains[n].position};
-    };
+    const auto posed = [&](std::uint32_t n) { return pose(shapes, grains[n]); };
     const Posed first = posed(order[o]);
     const double end = first.position.x + first.shape.bounding_radius + reach;
     for (std::size_t p = o + 1; p < order.size() && low_x(order[p]) <= end; ++p) {
@@ -132,33 +86,72 @@ std::vector<NearPair> near_pairs(std::span<const ShapeView> shapes,
   return pairs;
 }
 
-double gray_gap(const GrayVolume& gray, const GrayLevels& levels, const NearPair& pair) {
-  constexpr int search_reach = 10;  // in half voxels
-  constexpr int mean_reach = 2;
-  const Vec3 helper = std::abs(pair.normal_world.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 along_u = normalized(cross(helper, pair.normal_world));
-  const Vec3 along_v = cross(pair.normal_world, along_u);
-  const auto void_along = [&](int u, int v) {
-    const Vec3 center = pair.point_world + 0.5 * gray.voxel * (u * along_u + v * along_v);
-    return void_along_line(gray, levels, center, pair.normal_world);
-  };
-  int best_u = 0;
-  int best_v = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for_each_in_disk(search_reach, [&](int u, int v) {
-    const double sum = void_along(u, v);
-    if (!(sum < least)) return;
-    least = sum;
-    best_u = u;
-    best_v = v;
+namespace {
+
+/// A place amidst two surfaces.
+struct Amidst {
+  double larger_phi{std::numeric_limits<double>::infinity()};
+  Vec3 place;
+  Vec3 across;  // from the first surface to the second, not normalised
+};
+
+/// Newton steps across the gap to where both phi are the same: the larger one has a crease there,
+/// which steps to all sides would hardly follow.
+Amidst amidst(const Posed& a, const Posed& b, Vec3 place) {
+  constexpr int rounds = 3;
+  Amidst best;
+  for (int round = 0; round < rounds; ++round) {
+    const auto in_a = a.shape.level_set.sample(a.to_body(place));
+    const auto in_b = b.shape.level_set.sample(b.to_body(place));
+    if (!in_a.inside_grid || !in_b.inside_grid) break;
+    const Vec3 across = a.rotation * in_a.gradient_body - b.rotation * in_b.gradient_body;
+    const double larger = std::max(in_a.phi, in_b.phi);
+    if (larger < best.larger_phi) best = {larger, place, across};
+    const double slope = squared_norm(across);
+    if (!(slope > 0.01)) break;
+    place -= ((in_a.phi - in_b.phi) / slope) * across;
+  }
+  return best;
+}
+
+/// Looks for the least larger phi by steps in 26 directions, which halve where none leads on.
+void settle_between(const Posed& a, const Posed& b, NearPair& pair) {
+  const double spacing = std::max(a.shape.level_set.spacing, b.shape.level_set.spacing);
+  Amidst best = amidst(a, b, pair.point_world);
+  if (!std::isfinite(best.larger_phi)) return;
+  for (double step = 2 * spacing; step > 0.01 * spacing;) {
+    const Vec3 center = best.place;
+    bool improved = false;
+    for (const double x : {-step, 0.0, step}) {
+      for (const double y : {-step, 0.0, step}) {
+        for (const double z : {-step, 0.0, step}) {
+          const Amidst next = amidst(a, b, center + Vec3{x, y, z});
+          if (!(next.larger_phi < best.larger_phi)) continue;
+          best = next;
+          improved = true;
+        }
+      }
+    }
+    if (!improved) step /= 2;
+  }
+  pair.gap = 2 * best.larger_phi;
+  pair.point_world = best.place;
+  if (squared_norm(best.across) > 0.01) pair.normal_world = normalized(best.across);
+}
+
+}  // namespace
+
+std::vector<NearPair> near_surfaces(std::span<const ShapeView> shapes,
+                                    std::span<const GrainState> grains, double reach) {
+  // A node may be a little way from where the surfaces are nearest.
+  double padding = 0;
+  for (const ShapeView& shape : shapes) padding = std::max(padding, 2 * shape.level_set.spacing);
+  std::vector<NearPair> pairs = near_pairs(shapes, grains, std::max(reach, padding));
+  parallel_for(pairs.size(), 16, [&](std::size_t p) {
+    settle_between(pose(shapes, grains[pairs[p].a]), pose(shapes, grains[pairs[p].b]), pairs[p]);
   });
-  double mean = 0;
-  int lines = 0;
-  for_each_in_disk(mean_reach, [&](int u, int v) {
-    mean += void_along(best_u + u, best_v + v);
-    ++lines;
-  });
-  return mean / lines * gray.voxel;
+  std::erase_if(pairs, [&](const NearPair& pair) { return !(pair.gap <= reach); });
+  return pairs;
 }
 
 }  // namespace reckon

@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "reckon/grains/grains.hpp"
-#include "reckon/scan/segmentation.hpp"
-#include "reckon/scan/volume.hpp"
 #include "reckon/shape/shape.hpp"
 
 namespace reckon {
@@ -27,16 +25,12 @@ struct NearPair {
 [[nodiscard]] std::vector<NearPair> near_pairs(std::span<const ShapeView> shapes,
                                                std::span<const GrainState> grains, double reach);
 
-/// The gap between two grains as the gray values tell it [m]: the void share summed up along the
-/// line through the pair's nearest point, along its normal, from inside one grain to inside the
-/// other. Of the lines within five voxels of that one the line with the least sum is taken, and the
-/// mean over those within a voxel of it, which evens out noise.
-///
-/// Blur spreads a thin gap over voxels whose gray stays above any threshold, but not its sum, which
-/// is the gap's width averaged over the blur across the line: for a gap g between surfaces of
-/// radius R it is g + s^2 / R with s the total deviation of the blur, the voxel's and that mean's
-/// included [voxels].
-[[nodiscard]] double gray_gap(const GrayVolume& gray, const GrayLevels& levels,
-                              const NearPair& pair);
+/// All pairs whose surfaces come within `reach` of each other, whether or not a node is there to
+/// tell: from the node that near_pairs finds, a search for the place where the larger phi is least.
+/// Twice that is the gap between the surfaces, or minus the depth of their overlap. The normal
+/// halves the angle between them. Grids know distances up to their padding of two spacings: `reach`
+/// should be less.
+[[nodiscard]] std::vector<NearPair> near_surfaces(std::span<const ShapeView> shapes,
+                                                  std::span<const GrainState> grains, double reach);
 
 }  // namespace reckon

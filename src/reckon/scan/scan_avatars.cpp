@@ -14,6 +14,7 @@
 #include "reckon/avatar/surface_extraction.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/parallel/threads.hpp"
+#include "reckon/scan/gray_gap.hpp"
 
 namespace reckon {
 namespace {
@@ -64,16 +65,59 @@ Avatar make_avatar(const SegmentedScan& scan, std::uint32_t label, const Labelle
   return avatar;
 }
 
+/// The blur of the denoised volume [voxels], from where grains have nothing but void before them.
+double measured_spread(const SegmentedScan& scan, const std::vector<double>& solid_gray,
+                       const ScannedAssembly& assembly) {
+  constexpr std::size_t lines_per_grain = 500;
+  constexpr int looks_per_voxel = 2;
+  const LabelVolume& territories = *scan.territories;
+  const double voxel = territories.voxel;
+  const auto free_before = [&](std::uint32_t label, const Vec3& point, const Vec3& normal) {
+    for (int n = 0; n <= EdgeProfile::reach * looks_per_voxel; ++n) {
+      const double t = static_cast<double>(n) / looks_per_voxel;
+      const Vec3 p = point / voxel + t * normal;
+      const auto i = static_cast<std::int32_t>(std::floor(p.x));
+      const auto j = static_cast<std::int32_t>(std::floor(p.y));
+      const auto k = static_cast<std::int32_t>(std::floor(p.z));
+      if (!territories.holds(i, j, k)) return false;
+      const std::uint32_t owner = territories.values[territories.index(i, j, k)];
+      if (owner != 0 && owner != label) return false;
+    }
+    return true;
+  };
+  std::vector<EdgeProfile> profiles(assembly.shapes.size());
+  parallel_for(profiles.size(), 1, [&](std::size_t n) {
+    const Shape& shape = assembly.shapes[n];
+    const GrainState& grain = assembly.grains[n];
+    const ShapeView view{shape};
+    const Mat3 rotation = rotation_matrix(grain.orientation);
+    GrayLevels levels = scan.levels;
+    levels.solid_gray = solid_gray[n];
+    const std::size_t stride = shape.nodes.size() / lines_per_grain + 1;
+    for (std::size_t node = 0; node < shape.nodes.size(); node += stride) {
+      const Vec3 body = shape.nodes.position(node);
+      const Vec3 normal = normalized(rotation * view.level_set.sample(body).gradient_body);
+      const Vec3 world = rotation * body + grain.position;
+      if (!free_before(assembly.quality[n].label, world, normal)) continue;
+      profiles[n].add(*scan.denoised, levels, world, normal);
+    }
+  });
+  EdgeProfile all;
+  for (const EdgeProfile& profile : profiles) all.add(profile);
+  return all.spread();
+}
+
 void find_contacts(const SegmentedScan& scan, const std::vector<double>& solid_gray,
                    double contact_gap, ScannedAssembly& assembly) {
   const double voxel = scan.labels->voxel;
-  const auto views = shape_views(assembly.shapes);
-  const auto pairs = near_pairs(views, assembly.grains, voxel);
+  assembly.spread = measured_spread(scan, solid_gray, assembly);
+  const auto pairs =
+      near_surfaces(shape_views(assembly.shapes), assembly.grains, contact_reach * voxel);
   assembly.contacts.resize(pairs.size());
   parallel_for(pairs.size(), 16, [&](std::size_t p) {
     GrayLevels levels = scan.levels;
     levels.solid_gray = 0.5 * (solid_gray[pairs[p].a] + solid_gray[pairs[p].b]);
-    const double gap = gray_gap(*scan.denoised, levels, pairs[p]);
+    const double gap = gray_gap(*scan.denoised, levels, pairs[p], assembly.spread);
     assembly.contacts[p] = {pairs[p], gap, gap <= contact_gap * voxel};
   });
   for (const ScannedContact& contact : assembly.contacts) {

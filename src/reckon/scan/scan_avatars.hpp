@@ -27,9 +27,12 @@ struct AvatarQuality {
   double surface_distance{0};   ///< root mean square of phi on the scanned surface [m]
   double area_kept{0};          ///< area that contact sees over that of the scanned surface
   double deepest_overlap{0};    ///< with any neighbour at the scanned pose [m]
-  std::uint32_t neighbours{0};  ///< nearer than a voxel
+  std::uint32_t neighbours{0};  ///< nearer than contact_reach
   std::uint32_t contacts{0};
 };
+
+/// How near avatars are whose contact the gray values are asked for [voxels].
+inline constexpr double contact_reach = 1.5;
 
 /// A pair of avatars as scanned.
 struct ScannedContact {
@@ -41,7 +44,7 @@ struct ScannedContact {
 struct AvatarSettings {
   ShapeResolution resolution;
   double smoothing{0.8};     ///< see extract_grain [voxels]
-  double contact_gap{0.22};  ///< largest gray gap of grains that count as touching [voxels]
+  double contact_gap{0.12};  ///< largest gray gap of grains that count as touching [voxels]
 };
 
 /// Grains of a scan as avatars: shape n belongs to grain n.
@@ -49,7 +52,8 @@ struct ScannedAssembly {
   ShapeLibrary shapes;
   std::vector<GrainState> grains;  ///< id and shape n, at the scanned pose
   std::vector<AvatarQuality> quality;
-  std::vector<ScannedContact> contacts;  ///< pairs nearer than a voxel
+  std::vector<ScannedContact> contacts;  ///< pairs nearer than contact_reach
+  double spread{1};                      ///< see EdgeProfile [voxels]
   std::vector<std::string> refused;      ///< why some grains have no avatar
 };
 

@@ -99,7 +99,7 @@ void compare_contacts(const ScanTruth& truth, const ScannedAssembly& assembly,
   std::map<std::uint32_t, std::uint32_t> truth_of;
   for (const auto& [grain, avatar] : matching.avatar_of) truth_of[avatar] = grain;
   std::set<std::pair<std::uint32_t, std::uint32_t>> real;
-  for (const NearPair& pair : near_pairs(shape_views(truth.shapes), truth.grains, 0)) {
+  for (const NearPair& pair : near_surfaces(shape_views(truth.shapes), truth.grains, 0)) {
     if (matching.avatar_of.contains(pair.a) && matching.avatar_of.contains(pair.b)) {
       real.insert({pair.a, pair.b});
     }

@@ -96,11 +96,17 @@ SolidMask find_solid(const GrayVolume& gray, const MaskSettings& settings) {
   return solid;
 }
 
-SplitGrains split_grains(const MaskVolume& mask, const SplitSettings& settings) {
+SplitGrains split_grains(const MaskVolume& mask, const SplitSettings& settings,
+                         const GrayVolume* gray, const GrayLevels& levels) {
   const GrayVolume depth = depth_in_solid(mask);
   SplitGrains split;
   split.labels = split_at_necks(depth, settings.least_rise);
-  split.joined = join_wide_necks(split.labels, depth, settings.neck);
+  split.joined = join_wide_necks(split.labels, depth,
+                                 {.wide = settings.neck,
+                                  .largest_void = settings.neck_void,
+                                  .gray = gray,
+                                  .void_gray = levels.void_gray,
+                                  .solid_gray = levels.solid_gray});
   const std::uint32_t count = renumber(split.labels);
   if (count == 0) {
     fail("split", "no grains were found", "the mask holds no solid", "Check the threshold.");

@@ -26,7 +26,8 @@ struct MaskSettings {
 
 struct SplitSettings {
   double least_rise{0.5};  ///< of a grain's middle above its deepest pass [voxels]
-  double neck{0.9};        ///< see join_wide_necks
+  double neck{0.95};       ///< NeckRules::wide
+  double neck_void{0.03};  ///< NeckRules::largest_void
 };
 
 /// Gray values of what a scan consists of.
@@ -56,8 +57,11 @@ struct SplitGrains {
   LabelVolume labels;       ///< consecutive from 1, in the order of their first voxels
   std::uint32_t joined{0};  ///< pieces that join_wide_necks put together again
 };
+/// `gray` (as scanned, or null) and its levels tell necks that are solid from touching grains.
 /// Throws Error when nothing is found, or one blob reaches all through the volume.
-[[nodiscard]] SplitGrains split_grains(const MaskVolume& mask, const SplitSettings& settings);
+[[nodiscard]] SplitGrains split_grains(const MaskVolume& mask, const SplitSettings& settings,
+                                       const GrayVolume* gray = nullptr,
+                                       const GrayLevels& levels = {});
 
 /// The levels of a gray volume whose grains are known already.
 [[nodiscard]] GrayLevels levels_of(const GrayVolume& gray, const MaskVolume& mask,

@@ -22,10 +22,36 @@ GrayVolume depths(const std::vector<float>& values) {
 TEST(Labels, WideNecksAreJoinedAndNarrowOnesNot) {
   const GrayVolume depth = depths({1, 10, 9.5F, 9.4F, 10, 3, 2.9F, 8, 1});
   LabelVolume labels = line({1, 1, 1, 2, 2, 2, 3, 3, 3});
-  EXPECT_EQ(join_wide_necks(labels, depth, 0.9), 1U);
+  EXPECT_EQ(join_wide_necks(labels, depth, {.wide = 0.9}), 1U);
   EXPECT_EQ(labels.values, (std::vector<std::uint32_t>{1, 1, 1, 1, 1, 1, 3, 3, 3}));
   LabelVolume strict = line({1, 1, 1, 2, 2, 2, 3, 3, 3});
-  EXPECT_EQ(join_wide_necks(strict, depth, 0.95), 0U);
+  EXPECT_EQ(join_wide_necks(strict, depth, {.wide = 0.95}), 0U);
+}
+
+TEST(Labels, NarrowNecksAreJoinedWhereTheGrayIsThatOfSolid) {
+  // A neck of eight tenths between two pieces, one of which is darker than the other.
+  const std::array<std::int32_t, 3> dims{40, 4, 1};
+  GrayVolume depth{dims, 1, 10};
+  GrayVolume gray{dims, 1, 190};
+  LabelVolume pieces{dims, 1, 1};
+  for (std::int32_t j = 0; j < 4; ++j) {
+    for (std::int32_t i = 20; i < 40; ++i) {
+      pieces.values[pieces.index(i, j, 0)] = 2;
+      gray.values[gray.index(i, j, 0)] = 180;
+    }
+    for (const std::int32_t i : {19, 20}) depth.values[depth.index(i, j, 0)] = 8;
+  }
+  const auto joined = [&](float gray_of_neck) {
+    for (std::int32_t j = 0; j < 4; ++j) {
+      for (const std::int32_t i : {19, 20}) gray.values[gray.index(i, j, 0)] = gray_of_neck;
+    }
+    LabelVolume labels = pieces;
+    return join_wide_necks(labels, depth, {.gray = &gray, .void_gray = 100, .solid_gray = 200});
+  };
+  EXPECT_EQ(joined(184), 1U);
+  EXPECT_EQ(joined(180), 0U);  // about 5 % of the step of 85 are missing
+  LabelVolume labels = pieces;
+  EXPECT_EQ(join_wide_necks(labels, depth, {}), 0U);
 }
 
 TEST(Labels, NumbersFollowTheFirstVoxels) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "reckon/scan/gray_gap.hpp"
 #include "reckon/scan/scan_avatars.hpp"
 #include "scan_fixture.hpp"
 
@@ -56,22 +57,63 @@ TEST(NearPairs, TheSameAsLookingAtAllPairs) {
   EXPECT_GT(counted, 5U);
 }
 
-TEST(NearPairs, BlurredGrayStillTellsTheGap) {
-  // Radius 20 voxels. The sum along the line is the gap averaged over the blur: g + s^2 / R, where
-  // s^2 holds the blur, the voxel itself, the interpolation between voxels and the mean of lines.
-  for (const double gap : {0.0, 0.5, 1.0}) {
-    const auto balls = two_balls(gap / 20);
-    ScannerSettings settings;
-    settings.voxel = 0.05;
-    settings.noise = 0;
-    settings.void_gray = 100;
-    settings.solid_gray = 300;
+TEST(NearPairs, SurfacesTouchWhereNoNodeIsThereToTell) {
+  // A hundred nodes lie a third of a radius apart, so an overlap of 1 % slips between them.
+  auto balls = two_balls(-0.01);
+  balls.shapes = {testing::sphere(1, 100, 40)};
+  const auto views = shape_views(balls.shapes);
+  EXPECT_TRUE(near_pairs(views, balls.grains, 0).empty());
+  const auto touching = near_surfaces(views, balls.grains, 0);
+  ASSERT_EQ(touching.size(), 1U);
+  EXPECT_NEAR(touching[0].gap, -0.01, 0.003);
+  EXPECT_NEAR(touching[0].point_world.x, 0.995, 0.003);
+  EXPECT_NEAR(touching[0].normal_world.x, 1, 1e-3);
+  balls.grains[1].position.x = 2.03;
+  EXPECT_TRUE(near_surfaces(views, balls.grains, 0.02).empty());
+  ASSERT_EQ(near_surfaces(views, balls.grains, 0.04).size(), 1U);
+  EXPECT_NEAR(near_surfaces(views, balls.grains, 0.04)[0].gap, 0.03, 0.003);
+}
+
+ScannerSettings clean_scanner(double voxel) {
+  ScannerSettings settings;
+  settings.voxel = voxel;
+  settings.noise = 0;
+  settings.void_gray = 100;
+  settings.solid_gray = 300;
+  return settings;
+}
+
+TEST(GrayGap, BlurOfAnEdgeIsMeasured) {
+  for (const double blur : {0.6, 1.0}) {
+    const auto balls = two_balls(0.5);
+    ScannerSettings settings = clean_scanner(0.05);
+    settings.blur = blur;
     const SimulatedScan scan = scan_assembly(balls.grains, balls.reader(), settings);
-    const auto pairs = near_pairs(shape_views(balls.shapes), scan.grains, 0.09);
-    ASSERT_EQ(pairs.size(), 1U);
-    const double found = gray_gap(scan.gray, {200, 100, 300}, pairs[0]) / settings.voxel;
-    const double spread = (0.8 * 0.8 + 2.0 / 12 + 0.5 * 0.5) / 20;
-    EXPECT_NEAR(found, gap + spread, 0.05) << gap;
+    EdgeProfile profile;
+    EXPECT_EQ(profile.spread(), 1);
+    for (std::size_t n = 0; n < balls.shapes[0].nodes.size(); n += 7) {
+      const Vec3 body = balls.shapes[0].nodes.position(n);
+      profile.add(scan.gray, {200, 100, 300}, scan.grains[0].position + body, normalized(body));
+    }
+    // The blur, the voxel itself, and the interpolation between voxels.
+    EXPECT_NEAR(profile.spread(), std::sqrt(blur * blur + 1.0 / 12 + 1.0 / 6), 0.03) << blur;
+  }
+}
+
+TEST(GrayGap, BlurredGrayStillTellsTheGapOfLargeAndSmallBalls) {
+  for (const double radius : {8.0, 20.0}) {  // [voxels]
+    for (const double gap : {0.0, 0.5, 1.0}) {
+      // Askew to the voxels, whose partial volumes are counted on a lattice.
+      auto balls = two_balls(0);
+      balls.grains[1].position = (2 + gap / radius) * Vec3{0.48, 0.6, 0.64};
+      const ScannerSettings settings = clean_scanner(1 / radius);
+      const SimulatedScan scan = scan_assembly(balls.grains, balls.reader(), settings);
+      const auto pairs = near_surfaces(shape_views(balls.shapes), scan.grains, 0.14);
+      ASSERT_EQ(pairs.size(), 1U);
+      const double spread = std::sqrt(0.8 * 0.8 + 1.0 / 12 + 1.0 / 6);
+      const double found = gray_gap(scan.gray, {200, 100, 300}, pairs[0], spread) / settings.voxel;
+      EXPECT_NEAR(found, gap, 0.06) << radius << ' ' << gap;
+    }
   }
 }
 

@@ -58,7 +58,7 @@ inline ChainResult run_chain(const TestAssembly& truth, const SimulatedScan& sca
   parts.raw = scan.gray;
   parts.denoised = denoised(parts.raw, {});
   SolidMask solid = find_solid(parts.denoised, {});
-  parts.labels = split_grains(solid.mask, {}).labels;
+  parts.labels = split_grains(solid.mask, {}, &parts.raw, solid.levels).labels;
   parts.grains = measure_labels(parts.labels);
   parts.choice = choose_grains(parts.grains, false, 500);
   const LabelVolume territories = grown(parts.labels, territory_layers);
