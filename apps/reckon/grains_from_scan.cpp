@@ -89,7 +89,9 @@ void run(Options options) {
     assembly = make_avatars(pieces, scan.grains, scan.choice.kept, avatars,
                             [&](std::size_t done) { display.show(done); });
   }
-  save_library(folder / "library.h5", assembly.shapes);
+  LibraryWriter library{folder / "library.h5", avatars.resolution.storage};
+  for (const KeptShape& shape : assembly.shapes) library.add(shape.whole());
+  library.finish();
   write_placement(folder / "placement.csv", assembly.grains);
   report.avatars(assembly, segment.volume.voxel);
   if (!options.truth.empty()) report.compare(options.truth, assembly, scan.labels);
@@ -159,6 +161,7 @@ void add_avatar_options(CLI::App& command, Options& options) {
   command.add_option("--nodes", options.nodes, "Surface nodes per grain, whatever its size")
       ->excludes(spacing)
       ->check(CLI::Range(4, 10000000));
+  add_storage_option(command, s.resolution.storage);
 }
 
 }  // namespace

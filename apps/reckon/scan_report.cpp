@@ -27,10 +27,11 @@ void write_quality(const std::filesystem::path& file, const ScannedAssembly& ass
       "surface_distance_m,area_kept,neighbours,contacts,deepest_overlap_m\n";
   for (std::size_t n = 0; n < assembly.quality.size(); ++n) {
     const AvatarQuality& q = assembly.quality[n];
-    text += fmt::format("{},{},{},{:.6f},{:.6f},{:.4f},{:.6f},{:.6g},{:.5f},{},{},{:.6g}\n",
-                        assembly.shapes[n].name, q.voxels, q.volume, q.volume / q.label_volume,
-                        q.volume / q.gray_volume, q.level, q.gradient_error, q.surface_distance,
-                        q.area_kept, q.neighbours, q.contacts, q.deepest_overlap);
+    text +=
+        fmt::format("{},{},{},{:.6f},{:.6f},{:.4f},{:.6f},{:.6g},{:.5f},{},{},{:.6g}\n",
+                    assembly.shapes[n].entry().name, q.voxels, q.volume, q.volume / q.label_volume,
+                    q.volume / q.gray_volume, q.level, q.gradient_error, q.surface_distance,
+                    q.area_kept, q.neighbours, q.contacts, q.deepest_overlap);
   }
   write_file(file, text);
 }
@@ -154,7 +155,7 @@ void ScanReport::avatars(const ScannedAssembly& assembly, double voxel) {
   for (std::size_t n = 0; n < assembly.quality.size(); ++n) {
     const auto count = static_cast<double>(assembly.quality.size());
     const AvatarQuality& q = assembly.quality[n];
-    diameter += assembly.shapes[n].descriptors.equivalent_diameter / count;
+    diameter += assembly.shapes[n].entry().descriptors.equivalent_diameter / count;
     overlap = std::max(overlap, q.deepest_overlap);
     gradient += q.gradient_error / count;
     drift += std::abs(q.volume / q.gray_volume - 1) / count;

@@ -20,7 +20,7 @@ namespace reckon {
 namespace {
 
 struct Avatar {
-  Shape shape;
+  KeptShape shape;
   GrainState grain;
   AvatarQuality quality;
   double solid_gray{0};
@@ -57,8 +57,9 @@ Avatar make_avatar(const SegmentedScan& scan, std::uint32_t label, const Labelle
   const PrincipalFrame frame = principal_frame(solid_properties(surface.mesh_world));
   const TriangleMesh body_mesh = to_frame(surface.mesh_world, frame);
   Avatar avatar;
-  avatar.shape = build_shape(body_mesh, settings.resolution, fmt::format("grain_{}", label));
-  avatar.quality = judge(avatar.shape, surface, body_mesh, label, grain);
+  Shape shape = build_shape(body_mesh, settings.resolution, fmt::format("grain_{}", label));
+  avatar.quality = judge(shape, surface, body_mesh, label, grain);
+  avatar.shape = KeptShape{std::move(shape)};
   avatar.grain.position = frame.origin_mesh;
   avatar.grain.orientation = quaternion_from_matrix(transpose(frame.rotation));
   avatar.solid_gray = surface.solid_gray;
@@ -87,16 +88,15 @@ double measured_spread(const SegmentedScan& scan, const std::vector<double>& sol
   };
   std::vector<EdgeProfile> profiles(assembly.shapes.size());
   parallel_for(profiles.size(), 1, [&](std::size_t n) {
-    const Shape& shape = assembly.shapes[n];
+    const ShapeView shape = assembly.shapes[n].view();
     const GrainState& grain = assembly.grains[n];
-    const ShapeView view{shape};
     const Mat3 rotation = rotation_matrix(grain.orientation);
     GrayLevels levels = scan.levels;
     levels.solid_gray = solid_gray[n];
     const std::size_t stride = shape.nodes.size() / lines_per_grain + 1;
     for (std::size_t node = 0; node < shape.nodes.size(); node += stride) {
       const Vec3 body = shape.nodes.position(node);
-      const Vec3 normal = normalized(rotation * view.level_set.sample(body).gradient_body);
+      const Vec3 normal = normalized(rotation * shape.level_set.sample(body).gradient_body);
       const Vec3 world = rotation * body + grain.position;
       if (!free_before(assembly.quality[n].label, world, normal)) continue;
       profiles[n].add(*scan.denoised, levels, world, normal);
@@ -134,6 +134,13 @@ void find_contacts(const SegmentedScan& scan, const std::vector<double>& solid_g
 
 std::vector<ShapeView> shape_views(const ShapeLibrary& shapes) {
   return {shapes.begin(), shapes.end()};
+}
+
+std::vector<ShapeView> shape_views(const std::vector<KeptShape>& shapes) {
+  std::vector<ShapeView> views;
+  views.reserve(shapes.size());
+  for (const KeptShape& shape : shapes) views.push_back(shape.view());
+  return views;
 }
 
 ScannedAssembly make_avatars(const SegmentedScan& scan, const std::vector<LabelledGrain>& grains,

@@ -11,6 +11,7 @@
 #include "reckon/grains/grains.hpp"
 #include "reckon/scan/grain_surface.hpp"
 #include "reckon/scan/near_pairs.hpp"
+#include "reckon/shape/kept_shape.hpp"
 #include "reckon/shape/shape.hpp"
 
 namespace reckon {
@@ -49,7 +50,7 @@ struct AvatarSettings {
 
 /// Grains of a scan as avatars: shape n belongs to grain n.
 struct ScannedAssembly {
-  ShapeLibrary shapes;
+  std::vector<KeptShape> shapes;
   std::vector<GrainState> grains;  ///< id and shape n, at the scanned pose
   std::vector<AvatarQuality> quality;
   std::vector<ScannedContact> contacts;  ///< pairs nearer than contact_reach
@@ -66,7 +67,8 @@ struct ScannedAssembly {
                                            const AvatarSettings& settings,
                                            const std::function<void(std::size_t)>& on_progress);
 
-/// All shapes of a library as the kernels read them.
+/// All shapes as the kernels read them.
 [[nodiscard]] std::vector<ShapeView> shape_views(const ShapeLibrary& shapes);
+[[nodiscard]] std::vector<ShapeView> shape_views(const std::vector<KeptShape>& shapes);
 
 }  // namespace reckon

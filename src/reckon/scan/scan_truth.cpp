@@ -69,11 +69,11 @@ struct SurfaceErrors {
   double distance{0};
   double angle{0};
 };
-SurfaceErrors compare_surfaces(const Shape& shape, const GrainState& grain, const Shape& true_shape,
-                               const GrainState& true_grain) {
+SurfaceErrors compare_surfaces(const ShapeView& shape, const GrainState& grain,
+                               const Shape& true_shape, const GrainState& true_grain) {
   const Mat3 rotation = rotation_matrix(grain.orientation);
   const Mat3 true_rotation = rotation_matrix(true_grain.orientation);
-  const LevelSetView grid{shape.level_set};
+  const LevelSetView grid = shape.level_set;
   const LevelSetView true_grid{true_shape.level_set};
   SurfaceErrors errors;
   double weight = 0;
@@ -155,7 +155,7 @@ TruthFigures compare_with_truth(const ScanTruth& truth, const ScannedAssembly& a
     const Shape& true_shape = truth.shapes[true_grain.shape.get()];
     const SolidProperties& solid = true_solids[true_grain.shape];
     const PrincipalFrame frame = principal_frame(solid);
-    const Shape& shape = assembly.shapes[f];
+    const ShapeView shape = assembly.shapes[f].view();
     const GrainState& grain = assembly.grains[f];
     const double error = shape.mass.volume / solid.volume - 1;
     figures.volume_error += error / count;

@@ -13,6 +13,7 @@ namespace reckon {
 /// stored as a band lets go of its whole grid.
 class KeptShape {
  public:
+  KeptShape() = default;
   explicit KeptShape(Shape shape);
 
   /// Everything but grid, nodes and clusters; these too where the storage is full.
