@@ -46,9 +46,7 @@ struct AreaLaw {
             .elastic = 0.5 * normal_stiffness * touch.area * touch.phi * touch.phi +
                        stored_shear_energy(shear.force, touch.area),
             .friction = shear.lost,
-            .dashpot = (elastic_push - push) *
-                       approach_at_step(context, approach, share > 0 ? push / share : 0) *
-                       context.time_step};
+            .dashpot = (elastic_push - push) * approach * context.time_step};
   }
 
   [[nodiscard]] double pair_scale(const PairContext& /*context*/) const { return 1.0; }

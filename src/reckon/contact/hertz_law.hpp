@@ -51,9 +51,7 @@ struct HertzLaw {
             .shear_force = shear.force,
             .elastic = 0.4 * elastic_push * overlap + in_spring,
             .friction = shear.lost,
-            .dashpot = (elastic_push - push) *
-                       approach_at_step(context, approach, share > 0 ? push / share : 0) *
-                       context.time_step};
+            .dashpot = (elastic_push - push) * approach * context.time_step};
   }
 
   [[nodiscard]] double pair_scale(const PairContext& /*context*/) const { return 1.0; }

@@ -28,8 +28,6 @@ struct LinearLaw {
     const double approach = dot(normal, velocity);
     const double gamma = node_dashpot(context);
     const double push = -normal_stiffness * touch.phi - gamma * approach;
-    // As if all nodes pushed alike; their sum then has the right loss.
-    const double pair_push = push * static_cast<double>(context.touching) * pair_scale(context);
     CoulombSlider shear = slide(spring, velocity, normal, context.time_step, shear_stiffness,
                                 context.friction * std::abs(push));
     return {.force = push * normal + shear.force,
@@ -37,8 +35,7 @@ struct LinearLaw {
             .elastic = 0.5 * normal_stiffness * touch.phi * touch.phi +
                        stored_shear_energy(shear.force, touch.area),
             .friction = shear.lost,
-            .dashpot = gamma * approach * approach_at_step(context, approach, pair_push) *
-                       context.time_step};
+            .dashpot = gamma * approach * approach * context.time_step};
   }
 
   [[nodiscard]] double pair_scale(const PairContext& context) const {

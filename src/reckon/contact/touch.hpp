@@ -28,16 +28,6 @@ struct PairContext {
   double time_step{0};        ///< [s]
 };
 
-/// The speed of approach at the step. Velocities are those of half a step before: what the pair's
-/// push has made of them by then. Losses counted with it have an error of second order in the time
-/// step, while `approach` as it stands would count some 5 % too much of a dashpot's.
-[[nodiscard]] inline double approach_at_step(const PairContext& context, double approach,
-                                             double pair_push) {
-  return context.effective_mass > 0
-             ? approach + 0.5 * context.time_step * pair_push / context.effective_mass
-             : approach;
-}
-
 /// What a law answers for one node.
 struct NodeResponse {
   Vec3 force;          ///< on the master, world frame [N]

@@ -343,8 +343,8 @@ TEST(SceneSchema, TellsWhichTablesCannotBeLeftOut) {
   for (const SchemaRow& row : scene_schema().rows) {
     if (!row.table.empty() || row.type != "table") continue;
     const bool needed = row.name == "contact" || row.name == "time";
-    const bool absent =
-        row.name == "membrane" || row.name == "cell";  // means something by not being there
+    // These mean something by not being there.
+    const bool absent = row.name == "membrane" || row.name == "cell" || row.name == "bond";
     EXPECT_EQ(row.standard, needed ? "required" : absent ? "none" : "all defaults") << row.name;
   }
 }

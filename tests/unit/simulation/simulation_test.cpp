@@ -64,41 +64,6 @@ class ShakenBox : public ::testing::Test {
   }
 };
 
-/// What a dashpot takes in a collision of some forty steps is counted to second order: to a
-/// hundredth of the loss, where counting with last half step's velocity would miss a twentieth.
-TEST(Collision, LosesWhatItsDashpotCounts) {
-  const auto error_of_loss = [](Shape shape, const AnyContactLaw& law, double gap, double dt) {
-    SimulationSetup setup;
-    setup.shapes = testing::library_of({std::move(shape)});
-    setup.density = density;
-    setup.contact = {law, 0, MasterRule::lower_id};
-    setup.time_step = dt;
-    setup.skin = 0.1;
-    SimulationState state;
-    for (std::uint32_t n = 0; n < 2; ++n) {
-      GrainState grain;
-      grain.id = GrainId{n};
-      grain.position = {n * (2 + gap), 0, 0};
-      grain.velocity = {n == 0 ? 1.0 : -1.0, 0, 0};
-      state.grains.push_back(grain);
-    }
-    Simulation simulation{setup, state};
-    const double before = simulation.measure().energy.total();
-    for (int n = 0; n < 150; ++n) simulation.step();
-    const Measurement after = simulation.measure();
-    EXPECT_EQ(after.contacts, 0U);
-    EXPECT_GT(after.energy.dashpot, 0.2 * before);
-    return std::abs(after.energy.total() - before) / after.energy.dashpot;
-  };
-  Shape ball = testing::sphere(1, 100);
-  ball.sphere_radius = 1;
-  const Shape block = testing::box({1, 1, 1}, 4, 0.1);
-  EXPECT_LT(error_of_loss(ball, AreaLaw{1e7, 1e7, area_dashpot_factor(0.3)}, 0.01, 4e-3), 0.01);
-  EXPECT_LT(error_of_loss(ball, hertz_law(9e6, 0.2, false, hertz_dashpot_factor(0.3)), 0.01, 4e-3),
-            0.01);
-  EXPECT_LT(error_of_loss(block, LinearLaw{4e5, 4e5, 0.15}, 0.01, 2e-3), 0.01);
-}
-
 TEST_F(ShakenBox, ThreadsDoNotChangeTheState) {
   const int before = thread_count();
   set_thread_count(1);
