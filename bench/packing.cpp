@@ -151,6 +151,7 @@ ShapeStore make_shapes(const std::vector<GrainKind>& kinds, std::uint32_t distin
     return ShapeStore{std::move(shapes)};
   }
   std::vector<ShapeOutline> outlines;
+  outlines.reserve(form_of.size());
   for (const std::size_t form : form_of) outlines.push_back(outline_of((*forms)[form]));
   return ShapeStore{Communicator{}, std::move(outlines),
                     [forms, form_of](ShapeId s) { return (*forms)[form_of[s.get()]]; }};

@@ -257,7 +257,7 @@ TEST(Engines, AgreeOnEverySimdLevel) {
 
 /// Shapes that are kept as bands, against the whole grids that hold the same.
 TEST(Engines, AgreeOnBandsAndWholeGrids) {
-  for (Scene scene : {dynamic_drop(), sheared_box(area_law())}) {
+  for (const Scene& scene : {dynamic_drop(), sheared_box(area_law())}) {
     auto whole = std::make_shared<ShapeLibrary>();
     std::vector<ShapeOutline> outlines;
     for (const ShapeView& view : scene.setup.shapes.views()) {

@@ -52,6 +52,7 @@ std::vector<std::uint32_t> ranks_of_grains(const std::vector<GrainId>& own,
   }
   std::sort(found.begin(), found.end());
   std::vector<std::uint32_t> result;
+  result.reserve(found.size());
   for (const auto& [id, has] : found) result.push_back(has);
   return result;
 }

@@ -93,8 +93,8 @@ struct Images {
         if ((s[axis] - home[axis]) * widths[axis] <= reach) last[axis] = 1;
       }
       for (int n = 0; n < 8; ++n) {
-        const Vec3 on{static_cast<double>(n % 2), static_cast<double>(n / 2 % 2),
-                      static_cast<double>(n / 4)};
+        const Vec3 on{static_cast<double>(n & 1), static_cast<double>(n >> 1 & 1),
+                      static_cast<double>(n >> 2)};
         if (on.x > last.x || on.y > last.y || on.z > last.z) continue;
         positions.push_back(grains[slot] + cell.shift_of(on - home));
         radii.push_back(grain_radii[slot]);

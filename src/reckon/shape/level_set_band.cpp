@@ -28,7 +28,7 @@ int exponent_of(const std::array<std::int32_t, 3>& dims) {
 }
 
 std::size_t lattice_points(std::int32_t vertices) {
-  return static_cast<std::size_t>((vertices - 1) / lattice_step + 2);
+  return static_cast<std::size_t>((vertices - 1) / lattice_step) + 2;
 }
 
 std::size_t row_count(const std::array<std::int32_t, 3>& dims) {

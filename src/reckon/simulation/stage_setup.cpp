@@ -43,7 +43,7 @@ std::vector<std::vector<WallId>> planes_named(std::span<const Wall> walls, std::
 std::vector<CellAxis> cell_axes_named(std::string_view name) {
   if (name == "cell") return {CellAxis::x, CellAxis::y, CellAxis::z};
   constexpr std::array names{"cell.x", "cell.y", "cell.z", "cell.xy", "cell.xz", "cell.yz"};
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto* const found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) return {};
   return {static_cast<CellAxis>(found - names.begin())};
 }

@@ -31,7 +31,9 @@ std::vector<Vec3> cloud(std::size_t count, double flatness = 1) {
 std::vector<Vec3> lattice(int edge) {
   std::vector<Vec3> points;
   for (int n = 0; n < edge * edge * edge; ++n) {
-    points.push_back({0.1 * (n % edge), 0.1 * (n / edge % edge), 0.1 * (n / edge / edge)});
+    const int row = n / edge;
+    const int layer = row / edge;
+    points.push_back({0.1 * (n % edge), 0.1 * (row % edge), 0.1 * layer});
   }
   return points;
 }

@@ -148,7 +148,7 @@ class FallingClump : public ::testing::Test {
     for (std::uint32_t n = 0; n < 27; ++n) {
       GrainState grain;
       grain.id = GrainId{n};
-      grain.position = {1.72 * (n % 3), 1.72 * (n / 3 % 3), 1.5 + 1.72 * (n / 9)};
+      grain.position = {1.72 * (n % 3), 1.72 * (n / 3 % 3), 1.5 + 1.72 * std::floor(n / 9.0)};
       grain.orientation = normalized(Quaternion{1, 0.1 * n, 0.3 - 0.05 * n, 0.2});
       grain.velocity = {0.5, 0, -4};
       start_.grains.push_back(grain);
