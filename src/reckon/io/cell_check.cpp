@@ -36,6 +36,9 @@ std::array<std::size_t, 2> axes_of(CellAxis axis) {
 /// Whether a wall looks the same from everywhere along an axis.
 bool is_same_along(const WallSurface& surface, int axis) {
   if (const auto* plane = std::get_if<PlaneSurface>(&surface)) return plane->normal_unit[axis] == 0;
+  if (const auto* ledge = std::get_if<LedgeSurface>(&surface)) {
+    return ledge->normal_unit[axis] == 0 && ledge->top_unit[axis] == 0;
+  }
   const Vec3& along = std::get<CylinderSurface>(surface).axis_unit;
   return along[(axis + 1) % 3] == 0 && along[(axis + 2) % 3] == 0;
 }

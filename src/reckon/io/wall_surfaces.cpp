@@ -55,6 +55,14 @@ class Drawing {
   void add(std::uint32_t wall, WallPolygons& drawn) const {
     if (const auto* plane = std::get_if<PlaneSurface>(&standing_[wall])) {
       add_polygon(wall, polygon_of(wall, *plane), drawn);
+    } else if (const auto* ledge = std::get_if<LedgeSurface>(&standing_[wall])) {
+      const PlaneSurface side{ledge->point, ledge->normal_unit};
+      const PlaneSurface top{ledge->point, ledge->top_unit};
+      const auto solid_of = [](const PlaneSurface& face) {
+        return PlaneSurface{face.point, -face.normal_unit};
+      };
+      add_polygon(wall, clipped(polygon_of(wall, side), solid_of(top)), drawn);
+      add_polygon(wall, clipped(polygon_of(wall, top), solid_of(side)), drawn);
     } else {
       add_cylinder(wall, std::get<CylinderSurface>(standing_[wall]), drawn);
     }
@@ -88,14 +96,13 @@ class Drawing {
       if (n == own) continue;
       if (const auto* other = std::get_if<PlaneSurface>(&standing_[n])) {
         cut(*other);
-      } else {
-        const auto& cylinder = std::get<CylinderSurface>(standing_[n]);
-        if (std::abs(dot(cylinder.axis_unit, plane.normal_unit)) < parallel) continue;
-        const Frame ring = across(cylinder.axis_unit);
+      } else if (const auto* cylinder = std::get_if<CylinderSurface>(&standing_[n])) {
+        if (std::abs(dot(cylinder->axis_unit, plane.normal_unit)) < parallel) continue;
+        const Frame ring = across(cylinder->axis_unit);
         for (int facet = 0; facet < facets; ++facet) {
           const Vec3 out = direction(ring, facet + 0.5);
-          const double apothem = cylinder.radius * portable::cos_sin_of_turns(0.5 / facets).cos;
-          cut({cylinder.point + apothem * out, -out});
+          const double apothem = cylinder->radius * portable::cos_sin_of_turns(0.5 / facets).cos;
+          cut({cylinder->point + apothem * out, -out});
         }
       }
     }

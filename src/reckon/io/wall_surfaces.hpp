@@ -30,8 +30,8 @@ struct WallPolygons {
 };
 
 /// Walls have no end; what is drawn of them ends at the other walls, and a little beyond `grains`.
-/// Planes are one polygon, cylinders a ring of them. `displacement` is one per wall, since time
-/// zero; `absent` is a wall that is not there now.
+/// Planes are one polygon, ledges two, cylinders a ring of them. `displacement` is one per wall,
+/// since time zero; `absent` is a wall that is not there now.
 [[nodiscard]] WallPolygons wall_polygons(std::span<const Wall> walls,
                                          std::span<const Vec3> displacement, const Extent& grains,
                                          std::optional<std::uint32_t> absent);

@@ -73,6 +73,17 @@ TEST(WallPolygons, FollowTheirWallsAndEndNearTheGrainsWhereNothingElseStops) {
               1e-12);
 }
 
+/// The lower left side of a shear box: what faces the grains, and the top as far as it is drawn.
+TEST(WallPolygons, ALedgeHasTwoFacesThatEndAtItsEdge) {
+  std::vector<Wall> walls = box({1, 2, 3});
+  walls[0].surface = LedgeSurface{{0, 0, 1}, {1, 0, 0}, {0, 0, 1}};
+  const std::vector<Vec3> rest(6);
+  const WallPolygons drawn = wall_polygons(walls, rest, grains_of_box, std::nullopt);
+  const double margin = 0.06 * norm(grains_of_box.high - grains_of_box.low);
+  EXPECT_NEAR(area(drawn, 0), 2 * 1 + 2 * (margin - 0.1), 1e-12);
+  EXPECT_NEAR(area(drawn, 1), 2 * 3, 1e-12);
+}
+
 TEST(WallPolygons, PlatesInACylinderAreRoundAndEndIt) {
   const std::vector<Wall> walls{cylinder({5, 0, 0}, {0, 0, 1}, 2), plane({}, {0, 0, 1}),
                                 plane({0, 0, 3}, {0, 0, -1})};
