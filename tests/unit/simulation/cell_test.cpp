@@ -180,6 +180,38 @@ TEST(Cell, GrainsThatMeetAcrossTheBorderDoAsInTheMiddle) {
   }
 }
 
+/// Two cemented grains tug at each other.
+TEST(Cell, CementHoldsAcrossTheBorderAsInTheMiddle) {
+  SimulationSetup setup = setup_in_cell();
+  setup.cell = CellSetup{.center = {8, 8, 8}, .size = {16, 16, 16}};
+  setup.contact.bond = BondLaw{2e7, 1e7, 4e6, 4e6, 0.5};
+  setup.stages = {stage({})};
+  setup.stages[0].sets_bonds = true;
+  const auto tug = [&](const Vec3& a, const Vec3& b) {
+    SimulationState state;
+    for (const Vec3& place : {a, b}) {
+      GrainState grain;
+      grain.id = GrainId{static_cast<std::uint32_t>(state.grains.size())};
+      grain.position = place;
+      grain.velocity = {state.grains.empty() ? -0.3 : 0.3, 0.1, 0.2};
+      grain.angular_velocity_body = {0, 0.05, 0.2};
+      state.grains.push_back(grain);
+    }
+    Simulation simulation{setup, state};
+    for (int n = 0; n < 1000; ++n) simulation.step();
+    EXPECT_EQ(simulation.measure().bonds, 1U);
+    EXPECT_GT(simulation.measure().energy.elastic, 0);
+    return simulation.state();
+  };
+  const SimulationState middle = tug({7.25, 8, 8}, {8.75, 8.25, 8.25});
+  const SimulationState across = tug({15.25, 15.75, 0.25}, {0.75, 0, 16.5});
+  for (std::size_t g = 0; g < 2; ++g) {
+    EXPECT_LT(norm(across.grains[g].velocity - middle.grains[g].velocity), 1e-9);
+    EXPECT_LT(norm(across.grains[g].angular_velocity_body - middle.grains[g].angular_velocity_body),
+              1e-9);
+  }
+}
+
 TEST(Cell, FreeGrainsFollowThePrescribedDeformation) {
   SimulationSetup setup = setup_in_cell();
   setup.stages = {stage({{.axis = CellAxis::x, .target = WallTarget::strain_rate, .value = 0.1},
