@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "grains_parts.hpp"
@@ -93,22 +94,15 @@ void add_storage_option(CLI::App& command, ShapeStorage& storage) {
 
 std::vector<std::size_t> choose_shapes(const LibrarySource& library,
                                        std::span<const std::string> names) {
-  std::map<std::string, std::size_t> places;
-  for (std::size_t s = 0; s < library.size(); ++s) places.emplace(library.entry(s).name, s);
   std::vector<std::size_t> chosen;
   if (names.empty()) {
-    for (std::size_t s = 0; s < library.size(); ++s) chosen.push_back(s);
+    chosen.resize(library.size());
+    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+    return chosen;
   }
+  const ShapeLibrary entries = entries_of(library);
   for (const std::string& name : names) {
-    const auto found = places.find(name);
-    if (found == places.end()) {
-      throw Error{{.place = {},
-                   .problem = fmt::format("there is no shape named {}", name),
-                   .reason = fmt::format("the library holds {} shapes, the first is {}",
-                                         library.size(), library.entry(0).name),
-                   .fix = "reckon grains info lists the names."}};
-    }
-    chosen.push_back(found->second);
+    chosen.push_back(static_cast<std::size_t>(&find_shape(entries, name) - entries.data()));
   }
   return chosen;
 }

@@ -240,7 +240,7 @@ struct GenerateOptions {
 
 /// The generator's statistics that make grains like those of a library, told on the way.
 GrainStatistics statistics_of(const std::string& library, std::uint64_t seed) {
-  const ShapeLibrary model = load_entries(library);
+  const ShapeLibrary model = entries_of(LibrarySource{library});
   fmt::print("trial      roundness  convexity\n");
   const GrainStatistics s =
       match_statistics(model, seed, {}, [](double roundness, double convexity) {

@@ -78,7 +78,7 @@ void add_grains_statistics(CLI::App& grains) {
   command->add_option("-o,--output", options->output, "Write a line per grain to this .csv");
   command->add_flag("--json", options->json, "Answer in JSON");
   command->callback([=] {
-    const ShapeLibrary library = load_entries(options->library);
+    const ShapeLibrary library = entries_of(LibrarySource{options->library});
     if (!options->output.empty()) write_file(options->output, as_csv(library));
     if (options->json) {
       fmt::print("{}", as_json(options->library, library));

@@ -106,17 +106,19 @@ Shape table_row(const Shape& shape) {
   return row;
 }
 
+/// Takes a name into those that a library has so far.
+void add_name(const std::filesystem::path& path, const std::string& name,
+              std::set<std::string>& names) {
+  if (!name.empty() && names.insert(name).second) return;
+  throw Error{{.place = path.string(),
+               .problem = name.empty() ? "a shape has no name" : "two shapes are named " + name,
+               .reason = "scenes pick shapes by name",
+               .fix = "Rename the sources."}};
+}
+
 void check_names(const std::filesystem::path& path, const ShapeLibrary& library) {
-  std::set<std::string_view> names;
-  for (const Shape& shape : library) {
-    if (shape.name.empty() || !names.insert(shape.name).second) {
-      throw Error{{.place = path.string(),
-                   .problem = shape.name.empty() ? "a shape has no name"
-                                                 : "two shapes are named " + shape.name,
-                   .reason = "scenes pick shapes by name",
-                   .fix = "Rename the sources."}};
-    }
-  }
+  std::set<std::string> names;
+  for (const Shape& shape : library) add_name(path, shape.name, names);
 }
 
 /// Reads a library's table at once and its shapes one by one.
@@ -320,13 +322,7 @@ void LibraryWriter::add(const Shape& shape) {
   Impl& own = *impl_;
   const std::string place = "shape " + shape.name;
   check_shape(shape, place);
-  if (shape.name.empty() || !own.names.insert(shape.name).second) {
-    throw Error{{.place = own.file.target().string(),
-                 .problem = shape.name.empty() ? "a shape has no name"
-                                               : "two shapes are named " + shape.name,
-                 .reason = "scenes pick shapes by name",
-                 .fix = "Rename the sources."}};
-  }
+  add_name(own.file.target(), shape.name, own.names);
   if (shape.storage != own.storage) {
     throw Error{{.place = own.file.target().string(),
                  .problem = place + " is stored in another way than those before it",
@@ -459,8 +455,7 @@ Shape LibrarySource::read(std::size_t shape) const {
   return impl_->file ? impl_->file->shape(shape) : impl_->folder[shape];
 }
 
-ShapeLibrary load_entries(const std::filesystem::path& path) {
-  const LibrarySource source{path};
+ShapeLibrary entries_of(const LibrarySource& source) {
   ShapeLibrary entries;
   for (std::size_t s = 0; s < source.size(); ++s) entries.push_back(table_row(source.entry(s)));
   return entries;

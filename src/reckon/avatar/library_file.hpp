@@ -101,7 +101,7 @@ class LibrarySource {
                                        std::span<const ShapeId> wanted);
 
 /// All shapes without their grids and nodes.
-[[nodiscard]] ShapeLibrary load_entries(const std::filesystem::path& path);
+[[nodiscard]] ShapeLibrary entries_of(const LibrarySource& source);
 
 /// The shape of that name. Throws Error when there is none.
 [[nodiscard]] const Shape& find_shape(const ShapeLibrary& library, std::string_view name);

@@ -52,31 +52,6 @@ control = [{ wall = "cell.y", stress = "20 kPa" }, { wall = "cell.xy", strain_ra
 class CellRunTest : public testing::RunSceneTest {
  protected:
   static std::string scene() { return std::string{cell_of_grains} + pressing + shearing; }
-
-  [[nodiscard]] std::vector<std::string> faults_of(const std::string& text) const {
-    SceneReading reading = read_scene_text(text, root_);
-    if (reading.faults.empty()) (void)load_scene(reading);
-    std::vector<std::string> found;
-    for (const SceneFault& fault : reading.faults) {
-      found.push_back(fault.key + ": " + fault.problem);
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-  static std::string with(std::string text, const std::string& part, const std::string& instead) {
-    text.replace(text.find(part), part.size(), instead);
-    return text;
-  }
-  [[nodiscard]] std::vector<double> column(const std::string& name) const {
-    const HistoryTable table = read_history(root_ / "whole/history.csv");
-    const auto place = std::find(table.header.begin(), table.header.end(), name);
-    std::vector<double> cells;
-    EXPECT_NE(place, table.header.end()) << name;
-    for (const auto& row : table.rows) {
-      cells.push_back(std::stod(row[static_cast<std::size_t>(place - table.header.begin())]));
-    }
-    return cells;
-  }
 };
 
 TEST_F(CellRunTest, BreaksAnywhereLeaveTheSameFiles) {

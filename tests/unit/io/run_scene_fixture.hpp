@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -12,6 +13,7 @@
 
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/io/history.hpp"
 #include "reckon/io/run.hpp"
 #include "reckon/io/run_folder.hpp"
 #include "reckon/io/scene_loader.hpp"
@@ -152,6 +154,34 @@ sample = true
     for (const auto& [name, content] : second) {
       EXPECT_TRUE(first.contains(name)) << name << " is only in " << b;
     }
+  }
+
+  /// What reading and loading complain of, sorted: "KEY: PROBLEM".
+  [[nodiscard]] std::vector<std::string> faults_of(const std::string& text) const {
+    SceneReading reading = read_scene_text(text, root_);
+    if (reading.faults.empty()) (void)load_scene(reading);
+    std::vector<std::string> found;
+    for (const SceneFault& fault : reading.faults) {
+      found.push_back(fault.key + ": " + fault.problem);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+  static std::string with(std::string text, const std::string& part,
+                          const std::string& instead = "") {
+    text.replace(text.find(part), part.size(), instead);
+    return text;
+  }
+  /// Of the history of the run in the folder `whole`.
+  [[nodiscard]] std::vector<double> column(const std::string& name) const {
+    const HistoryTable table = read_history(root_ / "whole/history.csv");
+    const auto place = std::find(table.header.begin(), table.header.end(), name);
+    std::vector<double> cells;
+    EXPECT_NE(place, table.header.end()) << name;
+    for (const auto& row : table.rows) {
+      cells.push_back(std::stod(row[static_cast<std::size_t>(place - table.header.begin())]));
+    }
+    return cells;
   }
 
   std::filesystem::path root_;
