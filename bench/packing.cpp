@@ -119,6 +119,13 @@ void number_by_place(std::vector<GrainState>& grains, double cell) {
             [](const GrainState& a, const GrainState& b) { return a.id < b.id; });
 }
 
+/// Of one grain of each [m^3].
+double total_volume(std::span<const ShapeView> shapes) {
+  double sum = 0;
+  for (const ShapeView& shape : shapes) sum += shape.mass.volume;
+  return sum;
+}
+
 }  // namespace
 
 ShapeStore make_shapes(const std::vector<GrainKind>& kinds, std::uint32_t distinct,
@@ -172,28 +179,41 @@ double wall_pressure(const Measurement& now, const Vec3& size) {
 
 namespace {
 
-/// A packing without its contacts, in the machine's own byte order.
+/// A packing without its contacts, in the machine's own byte order. It fits the shapes that it was
+/// made of, by builds whose grains are laid out alike.
 struct PackingFile {
+  std::uint64_t grain_bytes{sizeof(GrainState)};
+  double volume;  // of all shapes
   Vec3 low;
   Vec3 high;
   double pressure;
+
+  explicit PackingFile(const Packing& packing)
+      : volume{total_volume(packing.setup.shapes.views())},
+        low{packing.low},
+        high{packing.high},
+        pressure{packing.pressure} {}
 };
 
-bool read_packing(const std::string& path, std::size_t grains, Packing& packing) {
+/// False, and the packing as it was, when there is none that fits.
+bool read_packing(const std::string& path, Packing& packing) {
   std::ifstream file{path, std::ios::binary};
-  PackingFile head{};
-  packing.state.grains.resize(grains);
+  const PackingFile wanted{packing};
+  PackingFile head{packing};
+  std::vector<GrainState> grains(packing.setup.shapes.views().size());
   file.read(reinterpret_cast<char*>(&head), sizeof head);
-  file.read(reinterpret_cast<char*>(packing.state.grains.data()),
-            static_cast<std::streamsize>(grains * sizeof(GrainState)));
+  file.read(reinterpret_cast<char*>(grains.data()),
+            static_cast<std::streamsize>(grains.size() * sizeof(GrainState)));
+  if (!file || head.grain_bytes != wanted.grain_bytes || head.volume != wanted.volume) return false;
+  packing.state.grains = std::move(grains);
   packing.low = head.low;
   packing.high = head.high;
   packing.pressure = head.pressure;
-  return static_cast<bool>(file);
+  return true;
 }
 
 void write_packing(const std::string& path, const Packing& packing) {
-  const PackingFile head{packing.low, packing.high, packing.pressure};
+  const PackingFile head{packing};
   std::ofstream file{path, std::ios::binary};
   file.write(reinterpret_cast<const char*>(&head), sizeof head);
   file.write(reinterpret_cast<const char*>(packing.state.grains.data()),
@@ -210,7 +230,7 @@ Packing squeeze(ShapeStore shapes, const Material& material, double pressure, do
   packing.setup.contact = {material.law, material.friction, material.master};
   packing.setup.time_step = time_step;
   packing.setup.skin = skin;
-  if (!file.empty() && read_packing(file, packing.setup.shapes.views().size(), packing)) {
+  if (!file.empty() && read_packing(file, packing)) {
     packing.setup.walls = closed_box(packing.low, packing.high, material);
     return packing;
   }
