@@ -17,7 +17,7 @@ import sys
 
 
 def results(path):
-    """{(workload, machine, threads, size): result} of a file or of all JSON files in a folder."""
+    """{(workload, machine, threads, size, storage): result} of a file or of all JSON files in a folder."""
     files = sorted(path.glob("*.json")) if path.is_dir() else [path]
     if not files:
         sys.exit(f"compare: {path} holds no results (*.json)")
@@ -25,22 +25,27 @@ def results(path):
     for file in files:
         try:
             result = json.loads(file.read_text(encoding="utf-8"))
-            key = tuple(result[k] for k in ("workload", "machine", "threads", "size"))
+            key = (*(result[k] for k in ("workload", "machine", "threads", "size")),
+                   result.get("storage", "full"))
         except (OSError, ValueError, KeyError, TypeError) as error:
             sys.exit(f"compare: {file} is not a result of `reckon bench --save`: {error}")
         found[key] = result
     return found
 
 
+def name_of(key):
+    return key[0] if key[4] == "full" else f"{key[0]}, {key[4]}"
+
+
 def compare(old, new, tolerance):
     """Prints a table; returns whether anything got worse."""
     worse = False
-    print(f"{'workload':16} {'threads':>7} {'ns':>8} {'was':>8} {'times':>6}"
+    print(f"{'workload':20} {'threads':>7} {'ns':>8} {'was':>8} {'times':>6}"
           f" {'plain/near':>11} {'was':>7} {'times':>6}")
     for key in sorted(old.keys() & new.keys()):
         before, after = old[key], new[key]
         ns = [r["near"]["ns_per_grain_step"] for r in (after, before)]
-        line = f"{key[0]:16} {key[2]:7} {ns[0]:8.0f} {ns[1]:8.0f} {ns[0] / ns[1]:6.2f}"
+        line = f"{name_of(key):20} {key[2]:7} {ns[0]:8.0f} {ns[1]:8.0f} {ns[0] / ns[1]:6.2f}"
         if not after.get("same_bits", True):
             line += "   BITS DIFFER"
             worse = True
@@ -52,7 +57,7 @@ def compare(old, new, tolerance):
                 worse = True
         print(line)
     for key in sorted(new.keys() - old.keys()):
-        print(f"{key[0]:16} {key[2]:7} not yet measured on {key[1]}")
+        print(f"{name_of(key):20} {key[2]:7} not yet measured on {key[1]}")
     return worse
 
 

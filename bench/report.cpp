@@ -100,6 +100,7 @@ BenchReport make_report(const std::string& name, const WorkloadRequest& request,
           .revision = std::string{build_info().revision},
           .threads = options.threads,
           .small = request.small,
+          .storage = request.storage,
           .inertial_number = work.inertial_number,
           .solid_fraction = work.solid_fraction,
           .distinct_shapes = work.distinct_shapes,
@@ -117,6 +118,7 @@ std::string as_text(const BenchReport& report) {
   if (report.inertial_number > 0) {
     text += fmt::format(", inertial number {:.0e}", report.inertial_number);
   }
+  if (report.storage == ShapeStorage::band) text += ", kept as bands";
   text += fmt::format("; {} thread{}, {}, {}\n", report.threads, report.threads > 1 ? "s" : "",
                       report.machine, report.revision);
   text += line_of("near", r.near);
@@ -153,6 +155,7 @@ std::string as_json(const BenchReport& report) {
   json.begin_object();
   json.value("workload", report.workload);
   json.value("size", report.small ? "small" : "full");
+  json.value("storage", report.storage == ShapeStorage::band ? "band" : "full");
   json.value("machine", report.machine);
   json.value("revision", report.revision);
   json.value("compiler", build_info().compiler);

@@ -15,6 +15,7 @@ struct BenchReport {
   std::string revision;
   int threads{1};
   bool small{false};
+  ShapeStorage storage{ShapeStorage::full};
   double inertial_number{0};
   double solid_fraction{0};
   std::size_t distinct_shapes{0};

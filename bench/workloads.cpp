@@ -122,9 +122,7 @@ Workload triaxial(std::uint32_t grains, const WorkloadRequest& request) {
   walls[4].motion = WallMotion{.velocity = {0, 0, -lateral}};
   walls[5].motion = WallMotion{.velocity = {0, 0, lateral}};
   work.warm_up = 600;
-  work.steps = 100;
   work.plain_steps = 1;
-  work.stretches = 3;
   return work;
 }
 

@@ -37,6 +37,13 @@ class BenchCompare(unittest.TestCase):
         self.assertEqual(outcome.returncode, 1)
         self.assertIn("slower", outcome.stdout)
 
+    def test_bands_are_not_compared_with_whole_grids(self):
+        outcome = self.compare(json.dumps({**result(10), "storage": "band"}),
+                               json.dumps(result(21)))
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertIn("dense, band", outcome.stdout)
+        self.assertIn("not yet measured", outcome.stdout)
+
     def test_other_bits_fail(self):
         outcome = self.compare(json.dumps(result(21, False)), json.dumps(result(21)))
         self.assertEqual(outcome.returncode, 1)
