@@ -15,7 +15,7 @@ std::string json_text(std::string_view text) {
     if (letter == '"' || letter == '\\') {
       out += '\\';
       out += letter;
-    } else if (code < 0x20) {
+    } else if (code < 0x20 || code == 0x7f) {
       out += fmt::format("\\u{:04x}", code);
     } else {
       out += letter;

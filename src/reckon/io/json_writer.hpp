@@ -50,7 +50,7 @@ class JsonWriter {
   bool first_{true};           // whether the next thing is the first of its parent
 };
 
-/// A JSON string with its quotes.
+/// A JSON string with its quotes; TOML reads it as well.
 [[nodiscard]] std::string json_text(std::string_view text);
 
 }  // namespace reckon

@@ -14,28 +14,12 @@
 #include <string_view>
 #include <utility>
 
+#include "reckon/io/json_writer.hpp"
 #include "reckon/io/scene_description.hpp"
 #include "reckon/io/scene_reader.hpp"
 
 namespace reckon {
 namespace {
-
-/// A TOML basic string.
-std::string toml_text(std::string_view text) {
-  std::string out = "\"";
-  for (const char letter : text) {
-    const auto code = static_cast<unsigned char>(letter);
-    if (letter == '"' || letter == '\\') {
-      out += '\\';
-      out += letter;
-    } else if (code < 0x20 || code == 0x7f) {
-      out += fmt::format("\\u{:04X}", code);
-    } else {
-      out += letter;
-    }
-  }
-  return out + '"';
-}
 
 /// The shortest text that reads back as `value`. TOML's integers know no negative zero.
 std::string toml_number(double value) {
@@ -68,7 +52,7 @@ class Writer {
   }
   void flag(const SceneKey& key, bool& value) { line(key, value ? "true" : "false"); }
   void text(const SceneKey& key, std::string& value) {
-    if (!value.empty()) line(key, toml_text(value));
+    if (!value.empty()) line(key, json_text(value));
   }
   void file(const SceneKey& key, std::string& value) { text(key, value); }
   void vector(const SceneKey& key, Vec3& value) {
@@ -83,7 +67,7 @@ class Writer {
   template <class Value, std::size_t count>
   void choice(const SceneKey& key, Value& value, const std::array<Choice<Value>, count>& choices) {
     for (const auto& candidate : choices) {
-      if (candidate.value == value) line(key, toml_text(candidate.word));
+      if (candidate.value == value) line(key, json_text(candidate.word));
     }
   }
   template <class Body>

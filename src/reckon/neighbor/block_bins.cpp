@@ -67,18 +67,24 @@ void BlockBins::visit_half_neighbors(std::uint32_t grain, Visit&& visit) const {
   }
 }
 
+void BlockBins::add_pairs_of(std::uint32_t grain, std::span<const GrainId> ids,
+                             std::span<const Vec3> positions, std::span<const double> radii,
+                             double skin, std::vector<Pair>& pairs) const {
+  visit_half_neighbors(grain, [&](std::uint32_t other) {
+    if (belongs_to_rank_[grain] == Residence::ghost &&
+        belongs_to_rank_[other] == Residence::ghost) {
+      return;
+    }
+    add_if_near(pairs, ids, positions, radii, skin, grain, other);
+  });
+}
+
 std::vector<Pair> BlockBins::pairs_by_grain(std::span<const GrainId> ids,
                                             std::span<const Vec3> positions,
                                             std::span<const double> radii, double skin) const {
   std::vector<Pair> pairs;
   for (std::uint32_t grain = 0; grain < positions.size(); ++grain) {
-    visit_half_neighbors(grain, [&](std::uint32_t other) {
-      if (belongs_to_rank_[grain] == Residence::ghost &&
-          belongs_to_rank_[other] == Residence::ghost) {
-        return;
-      }
-      add_if_near(pairs, ids, positions, radii, skin, grain, other);
-    });
+    add_pairs_of(grain, ids, positions, radii, skin, pairs);
   }
   sort_by_ids(pairs);
   return pairs;
@@ -90,13 +96,7 @@ std::vector<Pair> BlockBins::pairs_by_bin(std::span<const GrainId> ids,
   std::vector<Pair> pairs;
   for (const std::uint32_t first : bins_) {
     for (std::uint32_t grain = first; grain != nothing; grain = grain_list_[grain]) {
-      visit_half_neighbors(grain, [&](std::uint32_t other) {
-        if (belongs_to_rank_[grain] == Residence::ghost &&
-            belongs_to_rank_[other] == Residence::ghost) {
-          return;
-        }
-        add_if_near(pairs, ids, positions, radii, skin, grain, other);
-      });
+      add_pairs_of(grain, ids, positions, radii, skin, pairs);
     }
   }
   sort_by_ids(pairs);

@@ -43,6 +43,10 @@ class BlockBins {
   [[nodiscard]] std::uint32_t bin_at(int x, int y, int z) const;
   template <class Visit>
   void visit_half_neighbors(std::uint32_t grain, Visit&& visit) const;
+  /// Those with grains behind it in its bin, and in half of the bins around.
+  void add_pairs_of(std::uint32_t grain, std::span<const GrainId> ids,
+                    std::span<const Vec3> positions, std::span<const double> radii, double skin,
+                    std::vector<Pair>& pairs) const;
 
   std::array<int, 3> size_{};  // bins along x, y, z, padding included
   std::vector<std::uint32_t> bins_;
