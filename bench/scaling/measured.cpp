@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "decomposition_names.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/stopwatch.hpp"
+#include "reckon/domain/decomposition_names.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon::bench {

@@ -10,10 +10,10 @@
 #include <cstdio>
 
 #include "bin_counts.hpp"
-#include "decomposition_names.hpp"
 #include "measured.hpp"
 #include "paper_tables.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/domain/decomposition_names.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "virtual_ranks.hpp"
 
@@ -123,9 +123,7 @@ void print_weak(const Options& options) {
 }
 
 void print_measured(Options& options, const Communicator& ranks) {
-  for (const auto& [name, kind] : decomposition_names) {
-    if (options.decomposition == name) options.run.decomposition = kind;
-  }
+  options.run.decomposition = decomposition_named(options.decomposition).value();
   const std::string line = measure(options.run, ranks);
   if (ranks.is_root()) fmt::print("{}\n", line);
 }

@@ -18,6 +18,7 @@
 
 #include "reckon/analysis/sample.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/domain/decomposition_names.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "reckon/simulation/placement.hpp"
 #include "reckon/simulation/simulation.hpp"
@@ -210,13 +211,6 @@ int compare(const Outcome& found, const Outcome& expected) {
   return failures;
 }
 
-DecompositionKind decomposition_named(const std::string& name) {
-  if (name == "grid") return DecompositionKind::grid;
-  if (name == "bins") return DecompositionKind::bins;
-  if (name == "replicated") return DecompositionKind::replicated;
-  return DecompositionKind::balanced;
-}
-
 SimdLevel simd_named(const std::string& name) {
   const std::vector<SimdLevel> here = simd_levels_here();
   const auto found = std::find_if(here.begin(), here.end(),
@@ -237,7 +231,7 @@ int test(const Communicator& world, const std::string& decomposition, int steps,
   const SimulationState start =
       scene == "cell" ? grains_in_cell() : thrown_grains(*shapes, wrapped);
   SimulationSetup setup = make(shapes);
-  setup.decomposition = decomposition_named(decomposition);
+  setup.decomposition = decomposition_named(decomposition).value();
   setup.simd = simd_named(simd);
   const Outcome found = run(setup, start, world, steps);
   std::int64_t migrated = static_cast<std::int64_t>(found.migrated);

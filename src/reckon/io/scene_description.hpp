@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "reckon/domain/decomposition_names.hpp"
 #include "reckon/io/describe_bond.hpp"
 #include "reckon/io/describe_cell.hpp"
 #include "reckon/io/describe_grains.hpp"
@@ -242,9 +243,7 @@ void describe(Visitor& v, NeighborConfig& neighbor) {
 
 template <class Visitor>
 void describe(Visitor& v, ParallelConfig& parallel) {
-  constexpr std::array decompositions{
-      Choice{"balanced", DecompositionKind::balanced}, Choice{"grid", DecompositionKind::grid},
-      Choice{"bins", DecompositionKind::bins}, Choice{"replicated", DecompositionKind::replicated}};
+  constexpr auto decompositions = choices_of(decomposition_names);
   v.choice(
       {.name = "decomposition",
        .meaning = "How ranks share the grains: `balanced`: regions of equal work by recursive "

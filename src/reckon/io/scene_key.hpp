@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include "reckon/io/scene_schema.hpp"
@@ -29,6 +32,15 @@ struct Choice {
 };
 template <class Value>  // which compilers before C++20's own rule need to be told
 Choice(std::string_view, Value)->Choice<Value>;
+
+/// Choices of names that are kept beside what they name.
+template <class Value, std::size_t count>
+constexpr std::array<Choice<Value>, count> choices_of(
+    const std::array<std::pair<std::string_view, Value>, count>& names) {
+  std::array<Choice<Value>, count> choices{};
+  for (std::size_t n = 0; n < count; ++n) choices[n] = {names[n].first, names[n].second};
+  return choices;
+}
 
 /// How many of the keys of one_of must be given.
 enum class Presence { exactly_one, at_most_one };
