@@ -109,7 +109,7 @@ void ScanReport::begin(const std::string& stage) {
 
 void ScanReport::segmented(const Segmentation& scan, ScanStage last) {
   end_stage();
-  const auto& dims = scan.raw.dims;
+  const VoxelDims& dims = scan.raw.dims();
   fmt::print("volume     {} x {} x {} voxels\n", dims[0], dims[1], dims[2]);
   json_.begin_array("voxels");
   for (const std::int32_t dim : dims) json_.value({}, dim);
@@ -118,18 +118,22 @@ void ScanReport::segmented(const Segmentation& scan, ScanStage last) {
     fmt::print("resumed    {}: input and settings are those of its file\n", name_of(stage));
   }
   if (last >= ScanStage::threshold) {
-    const auto solid = std::count_if(scan.mask.values.begin(), scan.mask.values.end(),
-                                     [](auto m) { return m != 0; });
-    const double share = static_cast<double>(solid) / static_cast<double>(scan.mask.values.size());
     fmt::print("gray       void {:.6g}, solid {:.6g}, threshold {:.6g}\n", scan.levels.void_gray,
                scan.levels.solid_gray, scan.levels.threshold);
-    fmt::print("solid      {:.2f} % of the volume\n", 100 * share);
+    fmt::print("solid      {:.2f} % of the volume\n", 100 * scan.solid_share);
     json_.value("void_gray", scan.levels.void_gray);
     json_.value("solid_gray", scan.levels.solid_gray);
     json_.value("threshold", scan.levels.threshold);
-    json_.value("solid_share", share);
+    json_.value("solid_share", scan.solid_share);
   }
   if (last >= ScanStage::split) {
+    const BlockFigures& blocks = scan.blocks;
+    if (blocks.blocks > 1) {
+      fmt::print("blocks     {} that overlap by {} voxels; they disagree on {} solid voxels\n",
+                 blocks.blocks, blocks.overlap, human_count(blocks.disputed));
+    }
+    json_.value("blocks", blocks.blocks);
+    json_.value("disputed_voxels", blocks.disputed);
     json_.value("pieces_joined", scan.joined);
     fmt::print("split      {} pieces were joined again at wide necks\n", human_count(scan.joined));
   }
@@ -189,14 +193,13 @@ void ScanReport::avatars(const ScannedAssembly& assembly, double voxel) {
 }
 
 void ScanReport::compare(const std::string& truth_folder, const ScannedAssembly& assembly,
-                         const LabelVolume& labels) {
+                         const Segmentation& scan) {
   const std::filesystem::path folder{truth_folder};
   ScanTruth truth;
   truth.shapes = load_library(folder / "library.h5");
   truth.grains = read_placement(folder / "placement.csv", truth.shapes.size());
-  truth.labels = to_labels(read_volume({folder / "labels.h5", labels.voxel, {}}).gray,
-                           (folder / "labels.h5").string());
-  const TruthFigures f = compare_with_truth(truth, assembly, labels);
+  truth.labels = load_labels({folder / "labels.h5", scan.labels.voxel(), {}}, scan.work);
+  const TruthFigures f = compare_with_truth(truth, assembly, scan.labels, scan.work);
   fmt::print("truth      {} of {} grains found once ({:.2f} %), {} split, {} joined\n",
              f.found_once, f.grains, 100.0 * f.found_once / std::max(1U, f.grains), f.split,
              f.joined);
