@@ -49,9 +49,11 @@ void write_contacts(const std::filesystem::path& file, const ScannedAssembly& as
   write_file(file, text);
 }
 
-/// A scene in which overlaps push grains apart and damping stops them at once. Stiffness is such
-/// that a thousandth of a diameter bears what a grain of this size weighs many times over; the
-/// damping is near critical for one contact, whose area is about a fiftieth of d^2.
+/// A scene in which overlaps push grains apart and damping stops them at once. The nodes of both
+/// grains of a pair are looked at, or else corners would stay in faces. Stiffness is such that a
+/// thousandth of a diameter bears what a grain of this size weighs many times over; the damping is
+/// near critical for one contact, whose area is about a fiftieth of d^2: with less, grains fly on
+/// when they no longer touch.
 void write_relaxation(const std::filesystem::path& file, double diameter) {
   const double density = 2650;
   const double stiffness = 4e6 / diameter;
@@ -69,6 +71,7 @@ friction = 0
 
 [contact]
 law = "area"
+master = "both"
 normal_stiffness = "{:.4g} N/m^3"
 
 [body]
@@ -79,13 +82,15 @@ damping = {:.4g}
 library = "library.h5"
 table = {{ file = "placement.csv" }}
 
-[time]
-steps = 4000
+[[stage]]
+name = "relax"
+steps = 50000
+until = {{ overlap = {:.3g} }}
 
 [output]
 history_interval = 100
 )",
-                         density, stiffness, damping));
+                         density, stiffness, damping, 1e-4 * diameter));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "reckon/avatar/random_variates.hpp"
@@ -47,7 +48,7 @@ inline TestAssembly bumpy_assembly(int nx, int ny, int nz) {
   return assembly;
 }
 
-/// All of `reckon grains from-scan` on a simulated scan, within so much memory.
+/// All of `reckon grains from-scan` on a simulated scan.
 struct ChainResult {
   LabelVolume labels;
   ScannedAssembly assembly;
@@ -55,8 +56,8 @@ struct ChainResult {
   BlockFigures blocks;
 };
 inline ChainResult run_chain(const TestAssembly& truth, const SimulatedScan& scan,
-                             std::uint64_t memory = 0) {
-  const Workspace work{std::filesystem::temp_directory_path(), memory, 0};
+                             const Workspace& work = {std::filesystem::temp_directory_path(), 0,
+                                                      0}) {
   const GrayOnDisk raw = on_disk(scan.gray, work.folder);
   const GrayOnDisk quiet = denoised(raw, {}, work);
   const SolidMask solid = find_solid(quiet, {}, work);
