@@ -8,8 +8,8 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "reckon/core/error.hpp"
@@ -20,7 +20,7 @@ namespace {
 [[noreturn]] void fail(const std::filesystem::path& path, const char* problem) {
   throw Error{{.place = path.string(),
                .problem = problem,
-               .reason = std::strerror(errno),
+               .reason = std::generic_category().message(errno),
                .fix = "Check the folder's permissions and the free space."}};
 }
 

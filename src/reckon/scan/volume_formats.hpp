@@ -51,9 +51,9 @@ struct VolumeHeader {
 /// From the first bytes of a file. Throw Error for whatever they do not understand.
 [[nodiscard]] VolumeHeader parse_metaimage_header(std::string_view bytes, const std::string& place);
 [[nodiscard]] VolumeHeader parse_nrrd_header(std::string_view bytes, const std::string& place);
-[[nodiscard]] VolumeHeader parse_npy_header(std::string_view bytes, const std::string& place);
+[[nodiscard]] VolumeHeader parse_npy_header(std::string_view bytes, const std::string& name);
 /// The text beside a raw volume.
-[[nodiscard]] VolumeHeader parse_raw_sidecar(std::string_view text, const std::string& place);
+[[nodiscard]] VolumeHeader parse_raw_sidecar(std::string_view text, const std::string& name);
 /// How much of a file's beginning they need at most [bytes].
 inline constexpr std::size_t longest_header = 131072;
 
