@@ -74,19 +74,19 @@ void run(Options options) {
   const ScanStage last = stages.at(options.until);
   const Segmentation scan =
       segment_scan(segment, folder, last, [&](ScanStage stage) { report.begin(name_of(stage)); });
+  const std::int32_t layers = scan.raw.dims()[2];
   const std::int32_t slice =
-      options.slice >= 0 && options.slice < scan.raw.dims[2] ? options.slice : scan.raw.dims[2] / 2;
+      options.slice >= 0 && options.slice < layers ? options.slice : layers / 2;
   write_slices(scan, slice, folder);
   report.segmented(scan, last);
   if (last != ScanStage::choose) return report.finish();
 
   report.begin("avatars");
-  const LabelVolume territories = grown(scan.labels, territory_layers);
-  const SegmentedScan pieces{&scan.raw, &scan.denoised, &scan.labels, &territories, scan.levels};
+  const StoredScan stored{scan.raw, scan.denoised, scan.labels, scan.levels, scan.work};
   ScannedAssembly assembly;
   {
     CountDisplay display{scan.choice.kept.size(), "grains"};
-    assembly = make_avatars(pieces, scan.grains, scan.choice.kept, avatars,
+    assembly = make_avatars(stored, scan.grains, scan.choice.kept, avatars,
                             [&](std::size_t done) { display.show(done); });
   }
   LibraryWriter library{folder / "library.h5", avatars.resolution.storage};
@@ -94,7 +94,7 @@ void run(Options options) {
   library.finish();
   write_placement(folder / "placement.csv", assembly.grains);
   report.avatars(assembly, segment.volume.voxel);
-  if (!options.truth.empty()) report.compare(options.truth, assembly, scan.labels);
+  if (!options.truth.empty()) report.compare(options.truth, assembly, scan);
   report.finish();
 }
 
@@ -197,6 +197,16 @@ void add_grains_from_scan(CLI::App& grains) {
   add_avatar_options(*command, *options);
   command->add_option("--truth", options->truth,
                       "Folder that `reckon grains scan` wrote: compare with it");
+  command
+      ->add_option("--memory", s.memory,
+                   "For volumes, e.g. 8GB; larger ones are worked on in blocks (default: half of "
+                   "the machine's)")
+      ->transform(CLI::AsSizeValue(true));
+  command
+      ->add_option(
+          "--overlap", s.overlap,
+          "Of blocks [voxels]: more than the largest grain (default: a quarter of a block)")
+      ->check(CLI::Range(8, 100000));
   command->add_option("--threads", options->threads, "Threads (default: all)")
       ->check(CLI::Range(1, 4096));
   command->callback([=] { run(*options); });

@@ -49,9 +49,11 @@ void write_contacts(const std::filesystem::path& file, const ScannedAssembly& as
   write_file(file, text);
 }
 
-/// A scene in which overlaps push grains apart and damping stops them at once. Stiffness is such
-/// that a thousandth of a diameter bears what a grain of this size weighs many times over; the
-/// damping is near critical for one contact, whose area is about a fiftieth of d^2.
+/// A scene in which overlaps push grains apart and damping stops them at once. The nodes of both
+/// grains of a pair are looked at, or else corners would stay in faces. Stiffness is such that a
+/// thousandth of a diameter bears what a grain of this size weighs many times over; the damping is
+/// near critical for one contact, whose area is about a fiftieth of d^2: with less, grains fly on
+/// when they no longer touch.
 void write_relaxation(const std::filesystem::path& file, double diameter) {
   const double density = 2650;
   const double stiffness = 4e6 / diameter;
@@ -69,6 +71,7 @@ friction = 0
 
 [contact]
 law = "area"
+master = "both"
 normal_stiffness = "{:.4g} N/m^3"
 
 [body]
@@ -79,13 +82,15 @@ damping = {:.4g}
 library = "library.h5"
 table = {{ file = "placement.csv" }}
 
-[time]
-steps = 4000
+[[stage]]
+name = "relax"
+steps = 50000
+until = {{ overlap = {:.3g} }}
 
 [output]
 history_interval = 100
 )",
-                         density, stiffness, damping));
+                         density, stiffness, damping, 1e-4 * diameter));
 }
 
 }  // namespace
@@ -109,7 +114,7 @@ void ScanReport::begin(const std::string& stage) {
 
 void ScanReport::segmented(const Segmentation& scan, ScanStage last) {
   end_stage();
-  const auto& dims = scan.raw.dims;
+  const VoxelDims& dims = scan.raw.dims();
   fmt::print("volume     {} x {} x {} voxels\n", dims[0], dims[1], dims[2]);
   json_.begin_array("voxels");
   for (const std::int32_t dim : dims) json_.value({}, dim);
@@ -118,18 +123,22 @@ void ScanReport::segmented(const Segmentation& scan, ScanStage last) {
     fmt::print("resumed    {}: input and settings are those of its file\n", name_of(stage));
   }
   if (last >= ScanStage::threshold) {
-    const auto solid = std::count_if(scan.mask.values.begin(), scan.mask.values.end(),
-                                     [](auto m) { return m != 0; });
-    const double share = static_cast<double>(solid) / static_cast<double>(scan.mask.values.size());
     fmt::print("gray       void {:.6g}, solid {:.6g}, threshold {:.6g}\n", scan.levels.void_gray,
                scan.levels.solid_gray, scan.levels.threshold);
-    fmt::print("solid      {:.2f} % of the volume\n", 100 * share);
+    fmt::print("solid      {:.2f} % of the volume\n", 100 * scan.solid_share);
     json_.value("void_gray", scan.levels.void_gray);
     json_.value("solid_gray", scan.levels.solid_gray);
     json_.value("threshold", scan.levels.threshold);
-    json_.value("solid_share", share);
+    json_.value("solid_share", scan.solid_share);
   }
   if (last >= ScanStage::split) {
+    const BlockFigures& blocks = scan.blocks;
+    if (blocks.blocks > 1) {
+      fmt::print("blocks     {} that overlap by {} voxels; they disagree on {} solid voxels\n",
+                 blocks.blocks, blocks.overlap, human_count(blocks.disputed));
+    }
+    json_.value("blocks", blocks.blocks);
+    json_.value("disputed_voxels", blocks.disputed);
     json_.value("pieces_joined", scan.joined);
     fmt::print("split      {} pieces were joined again at wide necks\n", human_count(scan.joined));
   }
@@ -189,14 +198,13 @@ void ScanReport::avatars(const ScannedAssembly& assembly, double voxel) {
 }
 
 void ScanReport::compare(const std::string& truth_folder, const ScannedAssembly& assembly,
-                         const LabelVolume& labels) {
+                         const Segmentation& scan) {
   const std::filesystem::path folder{truth_folder};
   ScanTruth truth;
   truth.shapes = load_library(folder / "library.h5");
   truth.grains = read_placement(folder / "placement.csv", truth.shapes.size());
-  truth.labels = to_labels(read_volume({folder / "labels.h5", labels.voxel, {}}).gray,
-                           (folder / "labels.h5").string());
-  const TruthFigures f = compare_with_truth(truth, assembly, labels);
+  truth.labels = load_labels({folder / "labels.h5", scan.labels.voxel(), {}}, scan.work);
+  const TruthFigures f = compare_with_truth(truth, assembly, scan.labels, scan.work);
   fmt::print("truth      {} of {} grains found once ({:.2f} %), {} split, {} joined\n",
              f.found_once, f.grains, 100.0 * f.found_once / std::max(1U, f.grains), f.split,
              f.joined);

@@ -23,8 +23,7 @@ class ScanReport {
   /// Also writes quality.csv, contacts.csv and the scene that relaxes the assembly.
   void avatars(const ScannedAssembly& assembly, double voxel);
   /// Compares with the folder that `reckon grains scan` wrote.
-  void compare(const std::string& truth, const ScannedAssembly& assembly,
-               const LabelVolume& labels);
+  void compare(const std::string& truth, const ScannedAssembly& assembly, const Segmentation& scan);
   /// Writes report.json.
   void finish();
 

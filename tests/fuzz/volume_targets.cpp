@@ -49,10 +49,15 @@ Target volume_npy_target() {
                 write_volume(file, small_volume(), VoxelType::uint16);
                 return std::vector<std::string>{read_file(file)};
               },
-          .read = [](const std::string& input) { (void)parse_npy(input, "a.npy"); }};
+          .read =
+              [folder](const std::string& input) {
+                (void)read_volume({folder->write("volume.npy", input), 2e-6, {}});
+              },
+          .cost = 4};
 }
 
 Target volume_raw_target() {
+  const auto folder = std::make_shared<const ScratchFolder>();
   return {.name = "volume_raw",
           .valid_inputs =
               [] {
@@ -60,9 +65,11 @@ Target volume_raw_target() {
                                                 "# a scan\ndims 3 5 1\ntype float32\norder big\n"};
               },
           .read =
-              [](const std::string& input) {
-                (void)parse_raw(std::string(60, '\x3c'), input, "a.raw");
-              }};
+              [folder](const std::string& input) {
+                (void)folder->write("volume.raw.txt", input);
+                (void)read_volume({folder->write("volume.raw", std::string(60, '\x3c')), 2e-6, {}});
+              },
+          .cost = 4};
 }
 
 std::vector<Target> image_targets() {

@@ -279,6 +279,22 @@ void Hdf5Reader::read_raw(const std::string& name, std::uint64_t first, Hdf5Numb
   }
 }
 
+std::uint64_t Hdf5Reader::place_of(const std::string& name, Hdf5Number type, std::uint64_t count,
+                                   std::size_t number_size) const {
+  const QuietHdf5 quiet;
+  const Hdf5Extents found = extents(name);
+  const Hdf5Handle dataset{H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose};
+  const Hdf5Handle stored{H5Dget_type(dataset.get()), H5Tclose};
+  const std::uint64_t bytes = count * number_size;
+  const haddr_t offset = H5Dget_offset(dataset.get());
+  const bool whole = !found.empty() && found[0] * row_size(found) == count &&
+                     offset != HADDR_UNDEF && bytes <= file_size_ && offset <= file_size_ - bytes;
+  if (!whole || !stored.valid() || H5Tequal(stored.get(), native_type(type)) <= 0) {
+    fail(path_, "dataset " + name + " is not stored as expected");
+  }
+  return offset;
+}
+
 std::vector<std::string> Hdf5Reader::read_texts(const std::string& name,
                                                 std::uint64_t count) const {
   const QuietHdf5 quiet;

@@ -138,6 +138,12 @@ class Hdf5Reader {
   void read_rows(const std::string& name, std::uint64_t first, std::span<Number> values) const {
     read_raw(name, first, hdf5_number<Number>(), values.data(), values.size());
   }
+  /// Where the numbers of a dataset lie in the file [bytes], as they are in memory, for those who
+  /// read parts of it by themselves. It must have `count` of them.
+  template <Hdf5Storable Number>
+  [[nodiscard]] std::uint64_t place(const std::string& name, std::uint64_t count) const {
+    return place_of(name, hdf5_number<Number>(), count, sizeof(Number));
+  }
   [[nodiscard]] std::vector<std::string> read_texts(const std::string& name,
                                                     std::uint64_t count) const;
   [[nodiscard]] std::string read_note(const std::string& name) const;
@@ -148,6 +154,8 @@ class Hdf5Reader {
                                           std::size_t number_size) const;
   void read_raw(const std::string& name, std::uint64_t first, Hdf5Number type, void* values,
                 std::uint64_t count) const;
+  [[nodiscard]] std::uint64_t place_of(const std::string& name, Hdf5Number type,
+                                       std::uint64_t count, std::size_t number_size) const;
 
   std::filesystem::path path_;
   std::uint64_t file_size_{0};

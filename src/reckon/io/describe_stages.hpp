@@ -107,6 +107,13 @@ void describe(Visitor& v, StageGoal& goal) {
             .standard = "not asked",
             .meaning = "The void ratio is not above this."},
            goal.void_ratio);
+  v.number({.name = "overlap",
+            .unit = "m",
+            .range = above(0),
+            .standard = "not asked",
+            .meaning = "No node lies deeper in another grain or a wall than this, as "
+                       "`deepest_overlap_m` of the history tells."},
+           goal.overlap);
 }
 
 template <class Visitor>

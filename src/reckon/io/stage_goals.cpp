@@ -114,6 +114,7 @@ bool reached(const StageGoal& goal, const Simulation& simulation, const Measurem
   if (goal.strain && !(strain_since_start(simulation, sample) >= *goal.strain)) return false;
   if (goal.stress_above && !(stresses.driven > *goal.stress_above)) return false;
   if (goal.stress_below && !(stresses.driven < *goal.stress_below)) return false;
+  if (goal.overlap && !(measurement.deepest_overlap < *goal.overlap)) return false;
   if (goal.void_ratio && !(sample.enclosed && sample.void_ratio <= *goal.void_ratio)) return false;
   return true;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -16,7 +17,7 @@
 namespace reckon {
 namespace {
 
-const Hdf5Kind stage_kind{"scan stage", 1};
+const Hdf5Kind stage_kind{"scan stage", 2};
 
 /// What a stage's result depends on: the input's values and all settings up to it.
 using Key = std::uint64_t;
@@ -28,39 +29,38 @@ Key key_after(Key before, const std::string& settings) {
   return hash.digest();
 }
 
-Key key_of(const GrayVolume& volume) {
-  XxHash64 hash;
-  hash.update(std::as_bytes(std::span{volume.dims}));
-  hash.update(std::as_bytes(std::span{volume.values}));
-  return hash.digest();
-}
-
 /// A stage's file: a volume, a few numbers, and the key.
 template <class Value>
-void store(const std::filesystem::path& file, Key key, const Volume<Value>& volume,
-           const std::vector<double>& numbers) {
+void store(const std::filesystem::path& file, Key key, const DiskVolume<Value>& volume,
+           const Workspace& work, const std::vector<double>& numbers) {
+  const auto& dims = volume.dims();
   Hdf5Writer writer{file, stage_kind};
   writer.write("/key", std::vector<std::uint64_t>{key}, {1}, "1");
-  writer.write("/dims", std::vector<std::int32_t>(volume.dims.begin(), volume.dims.end()), {3},
-               "1");
+  writer.write("/dims", std::vector<std::int32_t>(dims.begin(), dims.end()), {3}, "1");
   writer.write("/numbers", numbers, {numbers.size()}, "1");
-  writer.write("/values", volume.values, {volume.values.size()}, "1");
+  const auto voxels = [&](std::size_t axis) { return static_cast<std::uint64_t>(dims[axis]); };
+  writer.create("/values", hdf5_number<Value>(), {voxels(2), voxels(1), voxels(0)}, "1");
+  for (const Box& slab : work.slabs(dims)) {
+    writer.write_rows("/values", static_cast<std::uint64_t>(slab.low[2]),
+                      std::span<const Value>{volume.read(slab).values});
+  }
   writer.finish();
 }
 
 /// The volume of a stage's file if it is sound and has this key; `numbers` are filled.
 template <class Value>
-std::optional<Volume<Value>> recall(const std::filesystem::path& file, Key key, double voxel,
-                                    std::vector<double>& numbers) {
+std::optional<DiskVolume<Value>> recall(const std::filesystem::path& file, Key key,
+                                        const GrayOnDisk& raw, std::vector<double>& numbers) {
   if (!std::filesystem::exists(file)) return std::nullopt;
   try {
     const Hdf5Reader reader{file, stage_kind};
     if (reader.read<std::uint64_t>("/key", {1}).front() != key) return std::nullopt;
     const auto dims = reader.read<std::int32_t>("/dims", {3});
-    Volume<Value> volume{{dims[0], dims[1], dims[2]}, voxel};
-    volume.values = reader.read<Value>("/values", {volume.values.size()});
+    if (!std::equal(dims.begin(), dims.end(), raw.dims().begin())) return std::nullopt;
     numbers = reader.read<double>("/numbers", {numbers.size()});
-    return volume;
+    return DiskVolume<Value>{std::make_shared<ByteFile>(file),
+                             reader.place<Value>("/values", raw.box().voxels()), raw.dims(),
+                             raw.voxel()};
   } catch (const Error&) {
     return std::nullopt;  // damaged: made anew
   }
@@ -70,22 +70,38 @@ class Segmenter {
  public:
   Segmenter(const SegmentSettings& settings, std::filesystem::path folder,
             const std::function<void(ScanStage)>& on_stage)
-      : settings_{settings}, folder_{std::move(folder)}, on_stage_{on_stage} {}
+      : settings_{settings}, folder_{std::move(folder)}, on_stage_{on_stage} {
+    scan_.work = {folder_, settings.memory, settings.overlap};
+  }
 
   Segmentation run(ScanStage last) {
     require_ct_component();
     if (settings_.labelled) return run_labelled();
     begin(ScanStage::read);
-    scan_.raw = read_volume(settings_.volume).gray;
-    key_ = key_of(scan_.raw);
+    XxHash64 hash;
+    scan_.raw = load_volume(settings_.volume, scan_.work, [&](const GrayVolume& layers) {
+      hash.update(std::as_bytes(std::span{layers.values}));
+    });
+    hash.update(std::as_bytes(std::span{scan_.raw.dims()}));
+    key_ = hash.digest();
     if (last >= ScanStage::denoise) denoise();
     if (last >= ScanStage::threshold) threshold();
     if (last >= ScanStage::split) split();
     if (last >= ScanStage::choose) choose();
+    measure_solid();
     return std::move(scan_);
   }
 
  private:
+  void measure_solid() {
+    if (scan_.mask.empty()) return;
+    std::uint64_t solid = 0;
+    for (const Box& slab : scan_.work.slabs(scan_.mask.dims())) {
+      for (const std::uint8_t voxel : scan_.mask.read(slab).values) solid += voxel;
+    }
+    scan_.solid_share = static_cast<double>(solid) / static_cast<double>(scan_.mask.box().voxels());
+  }
+
   void begin(ScanStage stage) {
     if (on_stage_) on_stage_(stage);
   }
@@ -96,35 +112,42 @@ class Segmenter {
   /// Labels as they were given; their gray volume, or else the mask itself, tells the surfaces.
   Segmentation run_labelled() {
     begin(ScanStage::read);
-    const GrayVolume stored = read_volume(settings_.volume).gray;
-    scan_.labels = to_labels(stored, settings_.volume.file.string());
-    (void)renumber(scan_.labels);
-    scan_.mask = MaskVolume{scan_.labels};
-    for (std::size_t v = 0; v < scan_.labels.values.size(); ++v) {
-      scan_.mask.values[v] = scan_.labels.values[v] != 0;
-    }
-    if (settings_.gray.empty()) {
-      scan_.raw = GrayVolume{scan_.labels};
-      for (std::size_t v = 0; v < scan_.mask.values.size(); ++v) {
-        scan_.raw.values[v] = scan_.mask.values[v];
+    const Workspace& work = scan_.work;
+    LabelsOnDisk given = load_labels(settings_.volume, work);
+    scan_.labels = LabelsOnDisk{given.dims(), given.voxel(), folder_};
+    scan_.mask = MaskOnDisk{given.dims(), given.voxel(), folder_};
+    GrayOnDisk solid{given.dims(), given.voxel(), folder_};
+    Renumbering numbering;
+    for (const Box& slab : work.slabs(given.dims())) {
+      LabelVolume labels = given.read(slab);
+      numbering.apply(labels);
+      MaskVolume mask{labels};
+      GrayVolume gray{labels};
+      for (std::size_t v = 0; v < labels.values.size(); ++v) {
+        mask.values[v] = labels.values[v] != 0 ? 1 : 0;
+        gray.values[v] = mask.values[v];
       }
-      scan_.denoised = scan_.raw;
-    } else {
-      scan_.raw = read_volume({settings_.gray, settings_.volume.voxel, {}}).gray;
-      if (scan_.raw.dims != scan_.labels.dims) {
-        throw Error{
-            {.place = settings_.gray.string(),
-             .problem = "the gray volume and the labels differ in size",
-             .reason = fmt::format("{} x {} x {} and {} x {} x {} voxels", scan_.raw.dims[0],
-                                   scan_.raw.dims[1], scan_.raw.dims[2], scan_.labels.dims[0],
-                                   scan_.labels.dims[1], scan_.labels.dims[2]),
-             .fix = "Give two volumes of the same scan."}};
-      }
-      begin(ScanStage::denoise);
-      scan_.denoised = denoised(scan_.raw, settings_.denoise);
+      scan_.labels.write(labels, slab);
+      scan_.mask.write(mask, slab);
+      solid.write(gray, slab);
     }
-    scan_.levels = levels_of(scan_.raw, scan_.mask, 0);
+    scan_.raw = settings_.gray.empty()
+                    ? solid
+                    : load_volume({settings_.gray, settings_.volume.voxel, {}}, work);
+    if (scan_.raw.dims() != given.dims()) {
+      const VoxelDims& gray = scan_.raw.dims();
+      const VoxelDims& labels = given.dims();
+      throw Error{{.place = settings_.gray.string(),
+                   .problem = "the gray volume and the labels differ in size",
+                   .reason = fmt::format("{} x {} x {} and {} x {} x {} voxels", gray[0], gray[1],
+                                         gray[2], labels[0], labels[1], labels[2]),
+                   .fix = "Give two volumes of the same scan."}};
+    }
+    begin(ScanStage::denoise);
+    scan_.denoised = settings_.gray.empty() ? solid : denoised(scan_.raw, settings_.denoise, work);
+    scan_.levels = levels_of(scan_.raw, scan_.mask, 0, work);
     choose();
+    measure_solid();
     return std::move(scan_);
   }
 
@@ -134,13 +157,13 @@ class Segmenter {
     key_ = key_after(key_, fmt::format("denoise {} {} {}", static_cast<int>(s.method), s.iterations,
                                        s.conductance));
     std::vector<double> none;
-    if (auto known = recall<float>(file_of(ScanStage::denoise), key_, voxel(), none)) {
+    if (auto known = recall<float>(file_of(ScanStage::denoise), key_, scan_.raw, none)) {
       scan_.resumed.push_back(ScanStage::denoise);
       scan_.denoised = std::move(*known);
       return;
     }
-    scan_.denoised = denoised(scan_.raw, s);
-    store(file_of(ScanStage::denoise), key_, scan_.denoised, none);
+    scan_.denoised = denoised(scan_.raw, s, scan_.work);
+    store(file_of(ScanStage::denoise), key_, scan_.denoised, scan_.work, none);
   }
 
   void threshold() {
@@ -149,16 +172,17 @@ class Segmenter {
     key_ = key_after(key_, fmt::format("threshold {} {} {} {}", s.threshold.has_value(),
                                        s.threshold.value_or(0), s.fill, s.open_radius));
     std::vector<double> numbers(3);
-    if (auto known = recall<std::uint8_t>(file_of(ScanStage::threshold), key_, voxel(), numbers)) {
+    if (auto known =
+            recall<std::uint8_t>(file_of(ScanStage::threshold), key_, scan_.raw, numbers)) {
       scan_.resumed.push_back(ScanStage::threshold);
       scan_.mask = std::move(*known);
       scan_.levels = {numbers[0], numbers[1], numbers[2]};
       return;
     }
-    SolidMask solid = find_solid(scan_.denoised, s);
+    SolidMask solid = find_solid(scan_.denoised, s, scan_.work);
     scan_.mask = std::move(solid.mask);
     scan_.levels = solid.levels;
-    store(file_of(ScanStage::threshold), key_, scan_.mask,
+    store(file_of(ScanStage::threshold), key_, scan_.mask, scan_.work,
           {scan_.levels.threshold, scan_.levels.void_gray, scan_.levels.solid_gray});
   }
 
@@ -166,22 +190,27 @@ class Segmenter {
     begin(ScanStage::split);
     const SplitSettings& s = settings_.split;
     key_ = key_after(key_, fmt::format("split {} {} {}", s.least_rise, s.neck, s.neck_void));
-    std::vector<double> numbers(1);
-    if (auto known = recall<std::uint32_t>(file_of(ScanStage::split), key_, voxel(), numbers)) {
+    std::vector<double> numbers(4);
+    if (auto known = recall<std::uint32_t>(file_of(ScanStage::split), key_, scan_.raw, numbers)) {
       scan_.resumed.push_back(ScanStage::split);
       scan_.labels = std::move(*known);
       scan_.joined = static_cast<std::uint32_t>(numbers[0]);
+      scan_.blocks = {static_cast<std::size_t>(numbers[1]), static_cast<std::int32_t>(numbers[2]),
+                      static_cast<std::uint64_t>(numbers[3])};
       return;
     }
-    SplitGrains split = split_grains(scan_.mask, s, &scan_.raw, scan_.levels);
+    SplitGrains split = split_grains(scan_.mask, s, &scan_.raw, scan_.levels, scan_.work);
     scan_.labels = std::move(split.labels);
     scan_.joined = split.joined;
-    store(file_of(ScanStage::split), key_, scan_.labels, {static_cast<double>(scan_.joined)});
+    scan_.blocks = split.blocks;
+    store(file_of(ScanStage::split), key_, scan_.labels, scan_.work,
+          {static_cast<double>(split.joined), static_cast<double>(split.blocks.blocks),
+           static_cast<double>(split.blocks.overlap), static_cast<double>(split.blocks.disputed)});
   }
 
   void choose() {
     begin(ScanStage::choose);
-    scan_.grains = measure_labels(scan_.labels);
+    scan_.grains = measure_labels(scan_.labels, scan_.work);
     scan_.choice = choose_grains(scan_.grains, settings_.keep_border, settings_.fewest_voxels);
     if (!scan_.choice.kept.empty()) return;
     throw Error{
@@ -192,8 +221,6 @@ class Segmenter {
          .fix = "Look at the pictures of the slices; check --threshold, and give "
                 "--keep-border or a smaller --fewest-voxels if they are right."}};
   }
-
-  [[nodiscard]] double voxel() const { return settings_.volume.voxel; }
 
   const SegmentSettings& settings_;
   std::filesystem::path folder_;

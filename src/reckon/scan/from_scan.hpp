@@ -19,6 +19,8 @@ enum class ScanStage : std::uint8_t { read, denoise, threshold, split, choose };
 
 struct SegmentSettings {
   VolumeRequest volume;
+  std::uint64_t memory{0};     ///< Workspace::memory
+  std::int32_t overlap{0};     ///< Workspace::overlap
   bool labelled{false};        ///< the volume holds labels already
   std::filesystem::path gray;  ///< with `labelled`: the gray volume of these labels, if there is
   DenoiseSettings denoise;
@@ -30,20 +32,24 @@ struct SegmentSettings {
 
 /// Everything that the avatars are made of, and what became of the rest.
 struct Segmentation {
-  GrayVolume raw;
-  GrayVolume denoised;
-  MaskVolume mask;
-  LabelVolume labels;
+  Workspace work;
+  GrayOnDisk raw;
+  GrayOnDisk denoised;
+  MaskOnDisk mask;
+  LabelsOnDisk labels;
   GrayLevels levels;
+  double solid_share{0};    ///< of the volume
   std::uint32_t joined{0};  ///< pieces that were put together again
+  BlockFigures blocks;
   std::vector<LabelledGrain> grains;
   GrainChoice choice;
   std::vector<ScanStage> resumed;  ///< stages whose results were found, not computed
 };
 
-/// Runs the stages up to `last`. Each leaves its volume in `folder`, a sealed file that also says
-/// what it was made from and with which settings, and is read instead of computed when both are
-/// still the same. `on_stage` is called before each. Throws Error; files appear only when complete.
+/// Runs the stages up to `last`, within the memory that the settings allow. Each leaves its volume
+/// in `folder`, a sealed file that also says what it was made from and with which settings, and is
+/// read instead of computed when both are still the same. `on_stage` is called before each. Throws
+/// Error; files appear only when complete.
 [[nodiscard]] Segmentation segment_scan(const SegmentSettings& settings,
                                         const std::filesystem::path& folder, ScanStage last,
                                         const std::function<void(ScanStage)>& on_stage);

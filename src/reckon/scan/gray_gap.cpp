@@ -14,15 +14,16 @@ namespace {
 constexpr double line_step = 0.25;  // [voxels]
 constexpr int line_half_steps = 14;
 
-/// Trilinear interpolation between voxel centres; voxels outside count as the nearest inside.
+/// Trilinear interpolation between voxel centres; voxels outside count as the nearest inside, so a
+/// part of a volume must reach as far as it is asked for.
 double value_at(const GrayVolume& gray, const Vec3& world) {
   std::array<std::int32_t, 3> cell{};
   std::array<double, 3> place{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const double g =
-        std::clamp(world[axis] / gray.voxel - 0.5, 0.0, static_cast<double>(gray.dims[a] - 1));
-    cell[a] = std::min(static_cast<std::int32_t>(g), std::max(gray.dims[a] - 2, 0));
+    const double g = std::clamp(world[axis] / gray.voxel - 0.5, static_cast<double>(gray.low[a]),
+                                static_cast<double>(gray.low[a] + gray.dims[a] - 1));
+    cell[a] = std::min(static_cast<std::int32_t>(g), gray.low[a] + std::max(gray.dims[a] - 2, 0));
     place[a] = g - cell[a];
   }
   double value = 0;
@@ -32,7 +33,7 @@ double value_at(const GrayVolume& gray, const Vec3& world) {
     std::array<std::int32_t, 3> at = cell;
     for (std::size_t a = 0; a < 3; ++a) {
       weight *= step[a] == 1 ? place[a] : 1 - place[a];
-      at[a] = std::min(cell[a] + step[a], gray.dims[a] - 1);
+      at[a] = std::min(cell[a] + step[a], gray.low[a] + gray.dims[a] - 1);
     }
     value += weight * gray.values[gray.index(at[0], at[1], at[2])];
   }

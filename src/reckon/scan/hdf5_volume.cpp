@@ -75,50 +75,81 @@ hid_t stored_type(VoxelType type) {
   return -1;
 }
 
+class Hdf5VolumeReader : public VolumeReader {
+ public:
+  Hdf5VolumeReader(const std::filesystem::path& file, const std::string& dataset)
+      : path_{file},
+        file_{H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose},
+        name_{dataset_in(file_, file, dataset)},
+        dataset_{H5Dopen2(file_.get(), name_.c_str(), H5P_DEFAULT), H5Dclose} {
+    if (!dataset_.valid()) {
+      refuse_volume(file, fmt::format("there is no dataset {}", name_), {},
+                    "h5dump -n lists what it holds.");
+    }
+    if (const int rank = rank_of(dataset_.get()); rank != 3) {
+      refuse_volume(file, fmt::format("{} is no volume", name_),
+                    fmt::format("it has {} dimensions", rank), "Choose another with --dataset.");
+    }
+    std::array<hsize_t, 3> extents{};
+    {
+      const Hdf5Handle space{H5Dget_space(dataset_.get()), H5Sclose};
+      H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr);
+    }
+    check_dims({static_cast<std::int64_t>(extents[2]), static_cast<std::int64_t>(extents[1]),
+                static_cast<std::int64_t>(extents[0])},
+               std::uint64_t{1} << 40U, file.string());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      outline.dims[axis] = static_cast<std::int32_t>(extents[2 - axis]);
+    }
+    outline.type = type_of(dataset_.get());
+    const Hdf5Handle attribute{H5Aopen(dataset_.get(), "voxel", H5P_DEFAULT), H5Aclose};
+    double spacing = 0;
+    if (attribute.valid() && H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &spacing) >= 0) {
+      outline.spacing = spacing;
+    }
+  }
+
+  GrayVolume read_layers(std::int32_t first, std::int32_t count) override {
+    const QuietHdf5 quiet;
+    GrayVolume layers{Box{{0, 0, first}, {outline.dims[0], outline.dims[1], count}}, 0};
+    const std::array<hsize_t, 3> start{static_cast<hsize_t>(first), 0, 0};
+    const std::array<hsize_t, 3> extents{static_cast<hsize_t>(count),
+                                         static_cast<hsize_t>(outline.dims[1]),
+                                         static_cast<hsize_t>(outline.dims[0])};
+    const Hdf5Handle space{H5Dget_space(dataset_.get()), H5Sclose};
+    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extents.data(),
+                        nullptr);
+    const Hdf5Handle memory{H5Screate_simple(3, extents.data(), nullptr), H5Sclose};
+    if (H5Dread(dataset_.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT,
+                layers.values.data()) < 0) {
+      refuse_volume(path_, fmt::format("{} cannot be read", name_),
+                    "it is damaged or holds no numbers", "Copy the file again.");
+    }
+    return layers;
+  }
+
+ private:
+  static std::string dataset_in(const Hdf5Handle& opened, const std::filesystem::path& file,
+                                const std::string& asked) {
+    if (!opened.valid()) {
+      refuse_volume(file, "the file cannot be read as HDF5",
+                    "it is damaged, cut short or something else", "Copy it again.");
+    }
+    return asked.empty() ? only_volume(opened.get(), file) : asked;
+  }
+
+  std::filesystem::path path_;
+  Hdf5Handle file_;
+  std::string name_;
+  Hdf5Handle dataset_;
+};
+
 }  // namespace
 
-StoredVolume read_hdf5_volume(const std::filesystem::path& file, const std::string& dataset) {
+std::unique_ptr<VolumeReader> open_hdf5_volume(const std::filesystem::path& file,
+                                               const std::string& dataset) {
   const QuietHdf5 quiet;
-  const Hdf5Handle handle{H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
-  if (!handle.valid()) {
-    refuse_volume(file, "the file cannot be read as HDF5",
-                  "it is damaged, cut short or something else", "Copy it again.");
-  }
-  const std::string name = dataset.empty() ? only_volume(handle.get(), file) : dataset;
-  const Hdf5Handle volume{H5Dopen2(handle.get(), name.c_str(), H5P_DEFAULT), H5Dclose};
-  if (!volume.valid()) {
-    refuse_volume(file, fmt::format("there is no dataset {}", name), {},
-                  "h5dump -n lists what it holds.");
-  }
-  if (const int rank = rank_of(volume.get()); rank != 3) {
-    refuse_volume(file, fmt::format("{} is no volume", name),
-                  fmt::format("it has {} dimensions", rank), "Choose another with --dataset.");
-  }
-  std::array<hsize_t, 3> extents{};
-  {
-    const Hdf5Handle space{H5Dget_space(volume.get()), H5Sclose};
-    H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr);
-  }
-  StoredVolume stored;
-  check_dims({static_cast<std::int64_t>(extents[2]), static_cast<std::int64_t>(extents[1]),
-              static_cast<std::int64_t>(extents[0])},
-             std::uint64_t{1} << 40U, file.string());
-  stored.gray =
-      GrayVolume{{static_cast<std::int32_t>(extents[2]), static_cast<std::int32_t>(extents[1]),
-                  static_cast<std::int32_t>(extents[0])},
-                 0};
-  stored.type = type_of(volume.get());
-  if (H5Dread(volume.get(), H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-              stored.gray.values.data()) < 0) {
-    refuse_volume(file, fmt::format("{} cannot be read", name), "it is damaged or holds no numbers",
-                  "Copy the file again.");
-  }
-  const Hdf5Handle attribute{H5Aopen(volume.get(), "voxel", H5P_DEFAULT), H5Aclose};
-  double spacing = 0;
-  if (attribute.valid() && H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &spacing) >= 0) {
-    stored.spacing = spacing;
-  }
-  return stored;
+  return std::make_unique<Hdf5VolumeReader>(file, dataset);
 }
 
 void write_hdf5_volume(const std::filesystem::path& file, const GrayVolume& volume,

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "reckon/scan/volume.hpp"
@@ -18,16 +19,17 @@ namespace reckon {
 /// Throws Error when it was not.
 void require_ct_component();
 
-/// Modified curvature diffusion (Whitaker & Xue 2001): evens out noise along level surfaces and
-/// stops at edges. `conductance` is relative to the mean gradient.
-[[nodiscard]] GrayVolume curvature_diffused(const GrayVolume& gray, std::uint32_t iterations,
+/// One step of modified curvature diffusion (Whitaker & Xue 2001): evens out noise along level
+/// surfaces and stops at edges. `conductance` is relative to `gradient`, the root of the mean
+/// squared gradient [per voxel] of all that is diffused. A voxel acts on its 26 neighbours.
+[[nodiscard]] GrayVolume curvature_diffused(const GrayVolume& gray, double gradient,
                                             double conductance);
 /// The median of the 3 x 3 x 3 voxels around each.
 [[nodiscard]] GrayVolume median_filtered(const GrayVolume& gray);
 
-/// The threshold that separates two classes of gray best (Otsu 1979), from 256 bins between the
-/// 0.1 % darkest and brightest voxels.
-[[nodiscard]] double otsu_threshold(const GrayVolume& gray);
+/// The threshold that separates two classes of gray best (Otsu 1979), from a histogram of equal
+/// bins between `low` and `high`.
+[[nodiscard]] double otsu_threshold(std::span<const std::uint64_t> counts, double low, double high);
 
 /// Void that no path through void connects to the volume's border becomes solid.
 [[nodiscard]] MaskVolume holes_filled(const MaskVolume& mask);

@@ -27,11 +27,9 @@ Result absent() {
 
 }  // namespace
 
-GrayVolume curvature_diffused(const GrayVolume&, std::uint32_t, double) {
-  return absent<GrayVolume>();
-}
+GrayVolume curvature_diffused(const GrayVolume&, double, double) { return absent<GrayVolume>(); }
 GrayVolume median_filtered(const GrayVolume&) { return absent<GrayVolume>(); }
-double otsu_threshold(const GrayVolume&) { return absent<double>(); }
+double otsu_threshold(std::span<const std::uint64_t>, double, double) { return absent<double>(); }
 MaskVolume holes_filled(const MaskVolume&) { return absent<MaskVolume>(); }
 MaskVolume opened(const MaskVolume&, std::uint32_t) { return absent<MaskVolume>(); }
 GrayVolume depth_in_solid(const MaskVolume&) { return absent<GrayVolume>(); }
@@ -40,9 +38,11 @@ void write_png(const std::filesystem::path&, std::int32_t, std::int32_t,
                const std::vector<std::uint8_t>&) {
   require_ct_component();
 }
-StoredVolume read_itk_volume(const std::filesystem::path&) { return absent<StoredVolume>(); }
-StoredVolume read_itk_slices(const std::vector<std::filesystem::path>&) {
-  return absent<StoredVolume>();
+std::unique_ptr<VolumeReader> unpack_itk_volume(const std::filesystem::path&, std::uint64_t) {
+  return absent<std::unique_ptr<VolumeReader>>();
+}
+std::unique_ptr<VolumeReader> open_itk_slices(std::vector<std::filesystem::path>) {
+  return absent<std::unique_ptr<VolumeReader>>();
 }
 void write_itk_volume(const std::filesystem::path&, const GrayVolume&, VoxelType) {
   require_ct_component();

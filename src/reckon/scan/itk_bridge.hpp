@@ -34,12 +34,10 @@ template <class To, class Value>
   return image;
 }
 
-template <class Value, class From>
-[[nodiscard]] Volume<Value> from_image(const ItkImage<From>& image, double voxel) {
-  const auto size = image.GetBufferedRegion().GetSize();
-  Volume<Value> volume{{static_cast<std::int32_t>(size[0]), static_cast<std::int32_t>(size[1]),
-                        static_cast<std::int32_t>(size[2])},
-                       voxel};
+/// The reverse, for the voxels of the volume that the image was made from.
+template <class Value, class From, class Like>
+[[nodiscard]] Volume<Value> from_image(const ItkImage<From>& image, const Volume<Like>& like) {
+  Volume<Value> volume{like};
   std::transform(image.GetBufferPointer(), image.GetBufferPointer() + volume.values.size(),
                  volume.values.begin(), [](From value) { return static_cast<Value>(value); });
   return volume;

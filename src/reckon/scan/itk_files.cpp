@@ -58,7 +58,7 @@ VoxelType type_of(itk::IOComponentEnum component) {
 /// smaller.
 void inspect(itk::ImageIOBase& io, const std::filesystem::path& file, unsigned dimensions) {
   constexpr std::uint64_t most_compression = 2000;
-  if (dynamic_cast<itk::TIFFImageIO*>(&io) != nullptr) check_tiff_pages(file);
+  if (dynamic_cast<itk::TIFFImageIO*>(&io) != nullptr) (void)read_tiff_pages(file);
   if (!io.CanReadFile(file.c_str())) {
     refuse_volume(file, "the file is not what its name says",
                   "its header is damaged or of another kind",
@@ -97,6 +97,70 @@ typename itk::Image<float, dimensions>::Pointer read_image(itk::ImageIOBase::Poi
   return reader->GetOutput();
 }
 
+class UnpackedVolume : public VolumeReader {
+ public:
+  UnpackedVolume(const VolumeOutline& what, ItkImage<float>::Pointer image)
+      : image_{std::move(image)} {
+    outline = what;
+  }
+  GrayVolume read_layers(std::int32_t first, std::int32_t count) override {
+    GrayVolume layers{Box{{0, 0, first}, {outline.dims[0], outline.dims[1], count}}, 0};
+    const std::size_t pixels = layers.index(0, 0, first + 1);
+    std::copy_n(image_->GetBufferPointer() + static_cast<std::size_t>(first) * pixels,
+                layers.values.size(), layers.values.begin());
+    return layers;
+  }
+
+ private:
+  ItkImage<float>::Pointer image_;
+};
+
+/// TIFF files of one slice each. All are looked at before the first is read.
+class SliceFiles : public VolumeReader {
+ public:
+  explicit SliceFiles(std::vector<std::filesystem::path> files) : files_{std::move(files)} {
+    for (const std::filesystem::path& file : files_) {
+      const VolumeOutline slice = outline_of(file);
+      if (&file == &files_.front()) outline = slice;
+      if (slice.dims == outline.dims && slice.type == outline.type) continue;
+      refuse_volume(file, "the slices of the stack differ",
+                    fmt::format("this one has {} x {} pixels of {}, the first {} x {} of {}",
+                                slice.dims[0], slice.dims[1], name_of(slice.type), outline.dims[0],
+                                outline.dims[1], name_of(outline.type)),
+                    "Leave one stack only in the folder.");
+    }
+    outline.dims[2] = static_cast<std::int32_t>(files_.size());
+  }
+
+  GrayVolume read_layers(std::int32_t first, std::int32_t count) override {
+    GrayVolume layers{Box{{0, 0, first}, {outline.dims[0], outline.dims[1], count}}, 0};
+    const std::size_t pixels = layers.index(0, 0, first + 1);
+    for (std::int32_t k = first; k < first + count; ++k) {
+      const std::filesystem::path& file = files_[static_cast<std::size_t>(k)];
+      with_itk(file.string(), [&] {
+        const auto slice = read_image<2>(itk::TIFFImageIO::New().GetPointer(), file);
+        std::copy_n(slice->GetBufferPointer(), pixels,
+                    layers.values.begin() + static_cast<std::ptrdiff_t>(layers.index(0, 0, k)));
+      });
+    }
+    return layers;
+  }
+
+ private:
+  static VolumeOutline outline_of(const std::filesystem::path& file) {
+    return with_itk(file.string(), [&] {
+      const itk::ImageIOBase::Pointer io = itk::TIFFImageIO::New().GetPointer();
+      inspect(*io, file, 2);
+      return VolumeOutline{{static_cast<std::int32_t>(io->GetDimensions(0)),
+                            static_cast<std::int32_t>(io->GetDimensions(1)), 1},
+                           type_of(io->GetComponentType()),
+                           {}};
+    });
+  }
+
+  std::vector<std::filesystem::path> files_;
+};
+
 template <class Number>
 void write_numbers(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type,
                    itk::ImageIOBase::Pointer io) {
@@ -116,12 +180,16 @@ void write_numbers(const std::filesystem::path& file, const GrayVolume& volume, 
 
 }  // namespace
 
-StoredVolume read_itk_volume(const std::filesystem::path& file) {
+std::unique_ptr<VolumeReader> unpack_itk_volume(const std::filesystem::path& file,
+                                                std::uint64_t memory) {
   return with_itk(file.string(), [&] {
     const itk::ImageIOBase::Pointer io = format_of(file);
     inspect(*io, file, 3);
-    StoredVolume stored;
-    stored.type = type_of(io->GetComponentType());
+    VolumeOutline outline;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      outline.dims[axis] = static_cast<std::int32_t>(io->GetDimensions(axis));
+    }
+    outline.type = type_of(io->GetComponentType());
     // A TIFF's resolution is about printing.
     const bool tiff = dynamic_cast<itk::TIFFImageIO*>(io.GetPointer()) != nullptr;
     if (!tiff) {
@@ -134,40 +202,23 @@ StoredVolume read_itk_volume(const std::filesystem::path& file) {
                         "Resample the volume to cubic voxels.");
         }
       }
-      stored.spacing = spacing;
+      outline.spacing = spacing;
     }
-    stored.gray = from_image<float>(*read_image<3>(io, file), 0);
-    return stored;
+    const std::uint64_t bytes =
+        Box{outline.dims}.voxels() * (sizeof(float) + size_of(outline.type));
+    if (memory > 0 && bytes > memory) {
+      refuse_volume(
+          file, "the file is compressed, and unpacked it does not fit into memory",
+          fmt::format("it would take {} bytes, {} are allowed", bytes, memory),
+          "Save it without compression or as a folder of slices, or allow more --memory.");
+    }
+    return std::unique_ptr<VolumeReader>{
+        std::make_unique<UnpackedVolume>(outline, read_image<3>(io, file))};
   });
 }
 
-StoredVolume read_itk_slices(const std::vector<std::filesystem::path>& files) {
-  return with_itk(files.front().parent_path().string(), [&] {
-    StoredVolume stored;
-    for (std::size_t k = 0; k < files.size(); ++k) {
-      const itk::ImageIOBase::Pointer io = itk::TIFFImageIO::New().GetPointer();
-      inspect(*io, files[k], 2);
-      const auto width = static_cast<std::int32_t>(io->GetDimensions(0));
-      const auto height = static_cast<std::int32_t>(io->GetDimensions(1));
-      const VoxelType type = type_of(io->GetComponentType());
-      if (k == 0) {
-        stored.gray = GrayVolume{{width, height, static_cast<std::int32_t>(files.size())}, 0};
-        stored.type = type;
-      }
-      if (width != stored.gray.dims[0] || height != stored.gray.dims[1] || type != stored.type) {
-        refuse_volume(files[k], "the slices of the stack differ",
-                      fmt::format("this one has {} x {} pixels of {}, the first {} x {} of {}",
-                                  width, height, name_of(type), stored.gray.dims[0],
-                                  stored.gray.dims[1], name_of(stored.type)),
-                      "Leave one stack only in the folder.");
-      }
-      const auto slice = read_image<2>(io, files[k]);
-      const std::size_t pixels = stored.gray.index(0, 0, 1);
-      std::copy_n(slice->GetBufferPointer(), pixels,
-                  stored.gray.values.begin() + static_cast<std::ptrdiff_t>(k * pixels));
-    }
-    return stored;
-  });
+std::unique_ptr<VolumeReader> open_itk_slices(std::vector<std::filesystem::path> files) {
+  return std::make_unique<SliceFiles>(std::move(files));
 }
 
 void write_itk_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type) {

@@ -11,26 +11,21 @@
 #include "reckon/scan/itk_bridge.hpp"
 
 namespace reckon {
-namespace {
-
-constexpr std::size_t bins = 256;
-
-}  // namespace
 
 bool has_ct_component() { return true; }
 void require_ct_component() {}
 
-GrayVolume curvature_diffused(const GrayVolume& gray, std::uint32_t iterations,
-                              double conductance) {
+GrayVolume curvature_diffused(const GrayVolume& gray, double gradient, double conductance) {
   return with_itk("denoise", [&] {
     using Filter = itk::CurvatureAnisotropicDiffusionImageFilter<ItkImage<float>, ItkImage<float>>;
     auto filter = Filter::New();
     filter->SetInput(to_image<float>(gray));
-    filter->SetNumberOfIterations(iterations);
+    filter->SetNumberOfIterations(1);
     filter->SetTimeStep(0.0625);  // the largest that is stable in three dimensions
     filter->SetConductanceParameter(conductance);
+    filter->SetFixedAverageGradientMagnitude(gradient);
     filter->Update();
-    return from_image<float>(*filter->GetOutput(), gray.voxel);
+    return from_image<float>(*filter->GetOutput(), gray);
   });
 }
 
@@ -40,44 +35,24 @@ GrayVolume median_filtered(const GrayVolume& gray) {
     filter->SetInput(to_image<float>(gray));
     filter->SetRadius(1);
     filter->Update();
-    return from_image<float>(*filter->GetOutput(), gray.voxel);
+    return from_image<float>(*filter->GetOutput(), gray);
   });
 }
 
-double otsu_threshold(const GrayVolume& gray) {
+double otsu_threshold(std::span<const std::uint64_t> counts, double low, double high) {
   return with_itk("threshold", [&] {
-    std::vector<float> sorted = gray.values;
-    const std::size_t tail = sorted.size() / 1000;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(tail),
-                     sorted.end());
-    const float low = sorted[tail];
-    std::nth_element(sorted.begin(), sorted.end() - static_cast<std::ptrdiff_t>(tail + 1),
-                     sorted.end());
-    const float high = sorted[sorted.size() - tail - 1];
-    if (!(high > low)) {
-      throw Error{{.place = "threshold",
-                   .problem = "the volume has one gray value only",
-                   .reason = "nearly all voxels are equal",
-                   .fix = "Is this the right file and data set?"}};
-    }
     using Histogram = itk::Statistics::Histogram<double>;
     auto histogram = Histogram::New();
     histogram->SetMeasurementVectorSize(1);
     Histogram::SizeType size(1);
-    size.Fill(bins);
+    size.Fill(counts.size());
     Histogram::MeasurementVectorType lower(1);
     Histogram::MeasurementVectorType upper(1);
     lower.Fill(low);
     upper.Fill(high);
     histogram->SetClipBinsAtEnds(false);
     histogram->Initialize(size, lower, upper);
-    std::vector<std::uint64_t> counts(bins, 0);
-    const float scale = static_cast<float>(bins) / (high - low);
-    for (const float value : gray.values) {
-      const float place = std::clamp((value - low) * scale, 0.0F, static_cast<float>(bins) - 1);
-      ++counts[static_cast<std::size_t>(place)];
-    }
-    for (std::size_t b = 0; b < bins; ++b) histogram->SetFrequency(b, counts[b]);
+    for (std::size_t b = 0; b < counts.size(); ++b) histogram->SetFrequency(b, counts[b]);
     auto otsu = itk::OtsuThresholdCalculator<Histogram, double>::New();
     otsu->SetInput(histogram);
     otsu->Compute();
@@ -91,7 +66,7 @@ MaskVolume holes_filled(const MaskVolume& mask) {
     filter->SetInput(to_image<std::uint8_t>(mask));
     filter->SetForegroundValue(1);
     filter->Update();
-    return from_image<std::uint8_t>(*filter->GetOutput(), mask.voxel);
+    return from_image<std::uint8_t>(*filter->GetOutput(), mask);
   });
 }
 
@@ -108,7 +83,7 @@ MaskVolume opened(const MaskVolume& mask, std::uint32_t radius) {
     filter->SetForegroundValue(1);
     filter->SetBackgroundValue(0);
     filter->Update();
-    return from_image<std::uint8_t>(*filter->GetOutput(), mask.voxel);
+    return from_image<std::uint8_t>(*filter->GetOutput(), mask);
   });
 }
 

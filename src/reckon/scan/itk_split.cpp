@@ -34,7 +34,7 @@ GrayVolume depth_in_solid(const MaskVolume& mask) {
     filter->UseImageSpacingOff();
     filter->InsideIsPositiveOff();
     filter->Update();
-    GrayVolume depth = from_image<float>(*filter->GetOutput(), mask.voxel);
+    GrayVolume depth = from_image<float>(*filter->GetOutput(), mask);
     for (std::size_t v = 0; v < mask.values.size(); ++v) {
       depth.values[v] = mask.values[v] != 0 ? std::max(depth.values[v], 0.0F) : 0.0F;
     }
@@ -86,7 +86,7 @@ LabelVolume split_at_necks(const GrayVolume& depth, double least_rise) {
     watershed->MarkWatershedLineOff();
     watershed->FullyConnectedOff();
     watershed->Update();
-    auto labels = from_image<std::uint32_t>(*watershed->GetOutput(), depth.voxel);
+    auto labels = from_image<std::uint32_t>(*watershed->GetOutput(), depth);
     for (std::uint32_t& label : labels.values) {
       if (label == void_label) label = 0;
     }

@@ -3,7 +3,6 @@
 #include "reckon/scan/labels.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -40,126 +39,108 @@ struct Pass {
   bool is_solid;  // as the gray values tell
 };
 
-/// A mean in the making.
-struct Mean {
-  double sum{0};
-  std::uint64_t count{0};
-
-  void add(double value) {
-    sum += value;
-    ++count;
-  }
-  [[nodiscard]] double value() const { return sum / static_cast<double>(count); }
-};
-
-struct Face {
-  float depth{0};  // at its deepest
-  Mean gray;       // well inside the solid
-};
-
 // What lies less deep is darkened by the surface's own blur.
 constexpr float gray_depth = 2;   // of the voxels of a face that tell its gray [voxels]
 constexpr float solid_depth = 3;  // of the voxels that tell a piece's own solid
 constexpr std::uint64_t fewest_in_neck = 4;
 constexpr std::uint64_t fewest_solid = 30;
 
-std::vector<Pass> list_passes(const LabelVolume& labels, const GrayVolume& depth,
-                              const std::vector<float>& peak, const NeckRules& rules) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Face> faces;
-  for_each_face(labels, [&](std::size_t v, std::size_t w) {
-    const std::uint32_t a = std::min(labels.values[v], labels.values[w]);
-    const std::uint32_t b = std::max(labels.values[v], labels.values[w]);
-    if (a == b || a == 0) return;
-    Face& face = faces[{a, b}];
-    const float here = std::min(depth.values[v], depth.values[w]);
-    face.depth = std::max(face.depth, here);
-    if (rules.gray != nullptr && here >= gray_depth) {
-      face.gray.add(0.5 * (rules.gray->values[v] + rules.gray->values[w]));
+/// Adds the voxels of a part of the volume `all`.
+void add_voxels(const LabelVolume& labels, const Box& all, std::vector<LabelledGrain>& grains) {
+  std::size_t v = 0;
+  for_each_voxel(labels.box(), [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+    const std::uint32_t label = labels.values[v++];
+    if (label == 0) return;
+    if (label > grains.size()) {
+      grains.resize(label, {{all.end(0), all.end(1), all.end(2)}, {}, 0, false});
+    }
+    LabelledGrain& grain = grains[label - 1];
+    ++grain.voxels;
+    const VoxelDims place{i, j, k};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      grain.low[axis] = std::min(grain.low[axis], place[axis]);
+      grain.high[axis] = std::max(grain.high[axis], place[axis]);
+      grain.on_border |= place[axis] == 0 || place[axis] + 1 == all.end(axis);
     }
   });
-  std::vector<Mean> solid(peak.size());
-  for (std::size_t v = 0; rules.gray != nullptr && v < labels.values.size(); ++v) {
-    if (depth.values[v] >= solid_depth) solid[labels.values[v]].add(rules.gray->values[v]);
-  }
-  const auto solid_of = [&](std::uint32_t piece) {
-    return solid[piece].count < fewest_solid ? rules.solid_gray : solid[piece].value();
-  };
-  std::vector<Pass> passes;
-  passes.reserve(faces.size());
-  for (const auto& [pair, face] : faces) {
-    const auto& [a, b] = pair;
-    bool is_solid = false;
-    if (face.gray.count >= fewest_in_neck) {
-      const double pieces = 0.5 * (solid_of(a) + solid_of(b));
-      const double missing = (pieces - face.gray.value()) / (pieces - rules.void_gray);
-      is_solid = missing < rules.largest_void;
-    }
-    const double width = static_cast<double>(face.depth) / std::min(peak[a], peak[b]);
-    passes.push_back({a, b, face.depth, width, is_solid});
-  }
-  std::stable_sort(passes.begin(), passes.end(),
-                   [](const Pass& p, const Pass& q) { return p.width > q.width; });
-  return passes;
 }
 
 }  // namespace
 
-std::uint32_t join_wide_necks(LabelVolume& labels, const GrayVolume& depth,
-                              const NeckRules& rules) {
-  const std::uint32_t most =
-      labels.values.empty() ? 0 : *std::max_element(labels.values.begin(), labels.values.end());
-  std::vector<float> peak(most + 1, 0);
-  for (std::size_t v = 0; v < labels.values.size(); ++v) {
-    peak[labels.values[v]] = std::max(peak[labels.values[v]], depth.values[v]);
+void NeckJoiner::add(const LabelVolume& pieces, const GrayVolume& depth, const GrayVolume* gray,
+                     std::int32_t layers) {
+  for_each_face(pieces, layers, [&](std::size_t v, std::size_t w) {
+    const std::uint32_t a = std::min(pieces.values[v], pieces.values[w]);
+    const std::uint32_t b = std::max(pieces.values[v], pieces.values[w]);
+    if (a == b || a == 0) return;
+    Face& face = faces_[{a, b}];
+    const float here = std::min(depth.values[v], depth.values[w]);
+    face.depth = std::max(face.depth, here);
+    if (gray != nullptr && here >= gray_depth) {
+      face.gray.add(0.5 * (gray->values[v] + gray->values[w]));
+    }
+  });
+  const std::size_t end = pieces.index(pieces.low[0], pieces.low[1], pieces.low[2] + layers);
+  for (std::size_t v = 0; v < end; ++v) {
+    const std::uint32_t piece = pieces.values[v];
+    if (piece >= pieces_.size()) pieces_.resize(piece + 1);
+    pieces_[piece].peak = std::max(pieces_[piece].peak, depth.values[v]);
+    if (gray != nullptr && depth.values[v] >= solid_depth) pieces_[piece].gray.add(gray->values[v]);
   }
-  Sets sets{peak.size()};
-  std::uint32_t joined = 0;
-  for (const Pass& pass : list_passes(labels, depth, peak, rules)) {
+}
+
+JoinedPieces NeckJoiner::join(const NeckRules& rules) const {
+  const auto solid_of = [&](std::uint32_t piece) {
+    const Mean& gray = pieces_[piece].gray;
+    return gray.count < fewest_solid ? rules.solid_gray : gray.value();
+  };
+  std::vector<Pass> passes;
+  passes.reserve(faces_.size());
+  for (const auto& [pair, face] : faces_) {
+    const auto& [a, b] = pair;
+    bool is_solid = false;
+    if (face.gray.count >= fewest_in_neck) {
+      const double solid = 0.5 * (solid_of(a) + solid_of(b));
+      const double missing = (solid - face.gray.value()) / (solid - rules.void_gray);
+      is_solid = missing < rules.largest_void;
+    }
+    const double width =
+        static_cast<double>(face.depth) / std::min(pieces_[a].peak, pieces_[b].peak);
+    passes.push_back({a, b, face.depth, width, is_solid});
+  }
+  std::stable_sort(passes.begin(), passes.end(),
+                   [](const Pass& p, const Pass& q) { return p.width > q.width; });
+  std::vector<float> peak(pieces_.size());
+  for (std::size_t p = 0; p < peak.size(); ++p) peak[p] = pieces_[p].peak;
+  Sets sets{pieces_.size()};
+  JoinedPieces result;
+  for (const Pass& pass : passes) {
     const std::uint32_t a = sets.find(pass.a);
     const std::uint32_t b = sets.find(pass.b);
     const double least = pass.is_solid ? std::min(rules.narrow, rules.wide) : rules.wide;
     if (a == b || !(pass.depth > least * std::min(peak[a], peak[b]))) continue;
     sets.join(std::min(a, b), std::max(a, b));
     peak[std::min(a, b)] = std::max(peak[a], peak[b]);
-    ++joined;
+    ++result.joined;
   }
-  for (std::uint32_t& label : labels.values) label = sets.find(label);
-  return joined;
+  result.label.resize(pieces_.size());
+  for (std::uint32_t p = 0; p < result.label.size(); ++p) result.label[p] = sets.find(p);
+  return result;
 }
 
-std::uint32_t renumber(LabelVolume& labels) {
-  const std::uint32_t most =
-      labels.values.empty() ? 0 : *std::max_element(labels.values.begin(), labels.values.end());
-  std::vector<std::uint32_t> number(most + 1, 0);
-  std::uint32_t count = 0;
+void Renumbering::apply(LabelVolume& labels) {
   for (std::uint32_t& label : labels.values) {
     if (label == 0) continue;
-    if (number[label] == 0) number[label] = ++count;
-    label = number[label];
+    if (label >= number_.size()) number_.resize(label + 1, 0);
+    if (number_[label] == 0) number_[label] = ++count_;
+    label = number_[label];
   }
-  return count;
 }
 
-std::vector<LabelledGrain> measure_labels(const LabelVolume& labels) {
-  const std::uint32_t most =
-      labels.values.empty() ? 0 : *std::max_element(labels.values.begin(), labels.values.end());
-  std::vector<LabelledGrain> grains(most);
-  for (LabelledGrain& grain : grains) grain.low = labels.dims;
-  std::size_t v = 0;
-  for (std::int32_t k = 0; k < labels.dims[2]; ++k) {
-    for (std::int32_t j = 0; j < labels.dims[1]; ++j) {
-      for (std::int32_t i = 0; i < labels.dims[0]; ++i, ++v) {
-        if (labels.values[v] == 0) continue;
-        LabelledGrain& grain = grains[labels.values[v] - 1];
-        ++grain.voxels;
-        const std::array<std::int32_t, 3> place{i, j, k};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          grain.low[axis] = std::min(grain.low[axis], place[axis]);
-          grain.high[axis] = std::max(grain.high[axis], place[axis]);
-          grain.on_border |= place[axis] == 0 || place[axis] + 1 == labels.dims[axis];
-        }
-      }
-    }
+std::vector<LabelledGrain> measure_labels(const LabelsOnDisk& labels, const Workspace& work) {
+  std::vector<LabelledGrain> grains;
+  for (const Box& slab : work.slabs(labels.dims())) {
+    add_voxels(labels.read(slab), labels.box(), grains);
   }
   return grains;
 }
@@ -181,6 +162,7 @@ GrainChoice choose_grains(const std::vector<LabelledGrain>& grains, bool keep_bo
 
 LabelVolume grown(const LabelVolume& labels, int layers) {
   LabelVolume now = labels;
+  now.low = {0, 0, 0};
   const std::size_t row = now.index(0, 1, 0);
   const std::size_t slab = now.index(0, 0, 1);
   for (int layer = 0; layer < layers; ++layer) {
@@ -207,6 +189,7 @@ LabelVolume grown(const LabelVolume& labels, int layers) {
     });
     now = std::move(next);
   }
+  now.low = labels.low;
   return now;
 }
 

@@ -4,9 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
-#include "reckon/scan/volume.hpp"
+#include "reckon/scan/blocks.hpp"
+#include "reckon/scan/disk_volume.hpp"
 
 namespace reckon {
 
@@ -20,28 +23,72 @@ struct NeckRules {
   /// that merely touch leave void there, however blurred.
   double largest_void{0.03};
   double narrow{0.7};
-  const GrayVolume* gray{nullptr};  ///< as scanned; or null
   double void_gray{0};
   double solid_gray{1};  ///< of pieces too small to tell their own
 };
 
-/// Joins pieces that no neck divides, at the widest first. Returns how many pieces were joined to
-/// others. Labels keep the lowest number of their pieces.
-std::uint32_t join_wide_necks(LabelVolume& labels, const GrayVolume& depth, const NeckRules& rules);
+/// Which pieces hang together.
+struct JoinedPieces {
+  std::vector<std::uint32_t> label;  ///< by piece: the lowest number of those joined to it
+  std::uint32_t joined{0};           ///< pieces that were joined to others
+};
 
-/// Gives all labels consecutive numbers in the order of their first voxels. Returns their number.
-std::uint32_t renumber(LabelVolume& labels);
+/// Joins pieces that no neck divides, at the widest first. Takes a volume from its first layer to
+/// its last, slab by slab.
+class NeckJoiner {
+ public:
+  /// The first `layers` of what is given; one more layer, which comes again, tells the faces
+  /// between. `gray` as scanned, or null.
+  void add(const LabelVolume& pieces, const GrayVolume& depth, const GrayVolume* gray,
+           std::int32_t layers);
+  [[nodiscard]] JoinedPieces join(const NeckRules& rules) const;
+
+ private:
+  struct Mean {
+    double sum{0};
+    std::uint64_t count{0};
+
+    void add(double value) {
+      sum += value;
+      ++count;
+    }
+    [[nodiscard]] double value() const { return sum / static_cast<double>(count); }
+  };
+  struct Face {
+    float depth{0};  // at its deepest
+    Mean gray;       // well inside the solid
+  };
+  struct Piece {
+    float peak{0};
+    Mean gray;  // well inside
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Face> faces_;
+  std::vector<Piece> pieces_;
+};
+
+/// Gives labels consecutive numbers from 1 in the order of their first voxels.
+class Renumbering {
+ public:
+  /// The next layers of a volume; layers may come again.
+  void apply(LabelVolume& labels);
+  [[nodiscard]] std::uint32_t count() const { return count_; }
+
+ private:
+  std::vector<std::uint32_t> number_;
+  std::uint32_t count_{0};
+};
 
 /// A labelled grain's place in its volume.
 struct LabelledGrain {
-  std::array<std::int32_t, 3> low{0, 0, 0};   ///< least voxel along each axis
-  std::array<std::int32_t, 3> high{0, 0, 0};  ///< largest
+  VoxelDims low{0, 0, 0};   ///< least voxel along each axis
+  VoxelDims high{0, 0, 0};  ///< largest
   std::uint64_t voxels{0};
   bool on_border{false};  ///< holds a voxel of the volume's outermost layers
 };
 
-/// All grains; the one with label n is at n - 1. Labels must be consecutive.
-[[nodiscard]] std::vector<LabelledGrain> measure_labels(const LabelVolume& labels);
+/// All grains; the one with label n is at n - 1.
+[[nodiscard]] std::vector<LabelledGrain> measure_labels(const LabelsOnDisk& labels,
+                                                        const Workspace& work);
 
 /// Which grains become avatars.
 struct GrainChoice {

@@ -9,6 +9,8 @@
 
 #include "reckon/avatar/shape_builder.hpp"
 #include "reckon/grains/grains.hpp"
+#include "reckon/scan/blocks.hpp"
+#include "reckon/scan/disk_volume.hpp"
 #include "reckon/scan/grain_surface.hpp"
 #include "reckon/scan/near_pairs.hpp"
 #include "reckon/shape/kept_shape.hpp"
@@ -58,10 +60,19 @@ struct ScannedAssembly {
   std::vector<std::string> refused;      ///< why some grains have no avatar
 };
 
-/// Makes an avatar of every grain in `kept` and finds their contacts. Grains whose form the
-/// resolution cannot hold are left out, with the reason. Uses all threads; the result does not
-/// depend on their number. Throws Error when no grain is left.
-[[nodiscard]] ScannedAssembly make_avatars(const SegmentedScan& scan,
+/// A segmented scan on disk.
+struct StoredScan {
+  GrayOnDisk raw;
+  GrayOnDisk denoised;
+  LabelsOnDisk labels;
+  GrayLevels levels;
+  Workspace work;
+};
+
+/// Makes an avatar of every grain in `kept` and finds their contacts, block by block. Grains whose
+/// form the resolution cannot hold are left out, with the reason. Uses all threads; the result
+/// depends neither on their number nor on the blocks. Throws Error when no grain is left.
+[[nodiscard]] ScannedAssembly make_avatars(const StoredScan& scan,
                                            const std::vector<LabelledGrain>& grains,
                                            const std::vector<std::uint32_t>& kept,
                                            const AvatarSettings& settings,

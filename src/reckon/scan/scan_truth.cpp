@@ -29,7 +29,8 @@ struct Matching {
   std::uint32_t joined{0};
 };
 
-Matching match(const ScanTruth& truth, const ScannedAssembly& assembly, const LabelVolume& labels) {
+Matching match(const ScanTruth& truth, const ScannedAssembly& assembly, const LabelsOnDisk& labels,
+               const Workspace& work) {
   std::map<std::uint32_t, std::uint32_t> avatar_of_label;
   for (std::uint32_t n = 0; n < assembly.quality.size(); ++n) {
     avatar_of_label[assembly.quality[n].label] = n;
@@ -37,12 +38,16 @@ Matching match(const ScanTruth& truth, const ScannedAssembly& assembly, const La
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> shared;
   std::map<std::uint32_t, std::uint64_t> truth_size;
   std::map<std::uint32_t, std::uint64_t> label_size;
-  for (std::size_t v = 0; v < labels.values.size(); ++v) {
-    const std::uint32_t t = truth.labels.values[v];
-    const std::uint32_t f = labels.values[v];
-    if (t != 0) ++truth_size[t];
-    if (f != 0) ++label_size[f];
-    if (t != 0 && f != 0) ++shared[{t, f}];
+  for (const Box& slab : work.slabs(labels.dims())) {
+    const LabelVolume true_part = truth.labels.read(slab);
+    const LabelVolume part = labels.read(slab);
+    for (std::size_t v = 0; v < part.values.size(); ++v) {
+      const std::uint32_t t = true_part.values[v];
+      const std::uint32_t f = part.values[v];
+      if (t != 0) ++truth_size[t];
+      if (f != 0) ++label_size[f];
+      if (t != 0 && f != 0) ++shared[{t, f}];
+    }
   }
   Matching matching;
   std::map<std::uint32_t, int> parts_of_truth;
@@ -125,16 +130,16 @@ double TruthFigures::precision() const {
 }
 
 TruthFigures compare_with_truth(const ScanTruth& truth, const ScannedAssembly& assembly,
-                                const LabelVolume& labels) {
-  if (truth.labels.dims != labels.dims) {
+                                const LabelsOnDisk& labels, const Workspace& work) {
+  if (truth.labels.dims() != labels.dims()) {
     throw Error{{.place = "truth",
                  .problem = "the true labels are of another volume",
                  .reason = "their dimensions differ from the scan's",
                  .fix = "Name the folder that `reckon grains scan` wrote for this volume."}};
   }
-  const Matching matching = match(truth, assembly, labels);
+  const Matching matching = match(truth, assembly, labels, work);
   TruthFigures figures;
-  for (const LabelledGrain& grain : measure_labels(truth.labels)) {
+  for (const LabelledGrain& grain : measure_labels(truth.labels, work)) {
     figures.grains += grain.voxels > 0 && !grain.on_border ? 1 : 0;
   }
   figures.found_once = static_cast<std::uint32_t>(matching.avatar_of.size());
@@ -148,7 +153,7 @@ TruthFigures compare_with_truth(const ScanTruth& truth, const ScannedAssembly& a
     true_solids[shape] = solid_properties(extract_surface(truth.shapes[shape.get()].level_set));
   }
   const double count = std::max(1.0, static_cast<double>(figures.found_once));
-  const double voxel = labels.voxel;
+  const double voxel = labels.voxel();
   double axes = 0;
   for (const auto& [t, f] : matching.avatar_of) {
     const GrainState& true_grain = truth.grains[t];

@@ -14,7 +14,7 @@ namespace reckon {
 struct ScanTruth {
   ShapeLibrary shapes;
   std::vector<GrainState> grains;  ///< shape by place in `shapes`, in the volume's world frame
-  LabelVolume labels;              ///< n stands for grain n - 1
+  LabelsOnDisk labels;             ///< n stands for grain n - 1
 };
 
 /// How near the avatars come to the truth. Means are over the grains that were found once.
@@ -43,6 +43,6 @@ struct TruthFigures {
 /// the true grains are those inside the zero surface of the interpolated grid, which was scanned.
 [[nodiscard]] TruthFigures compare_with_truth(const ScanTruth& truth,
                                               const ScannedAssembly& assembly,
-                                              const LabelVolume& labels);
+                                              const LabelsOnDisk& labels, const Workspace& work);
 
 }  // namespace reckon

@@ -6,7 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "reckon/scan/volume.hpp"
+#include "reckon/scan/blocks.hpp"
+#include "reckon/scan/disk_volume.hpp"
 
 namespace reckon {
 
@@ -42,29 +43,47 @@ struct GrayLevels {
   }
 };
 
-[[nodiscard]] GrayVolume denoised(const GrayVolume& gray, const DenoiseSettings& settings);
+/// The results below do not depend on how a volume is cut into blocks.
+
+[[nodiscard]] GrayOnDisk denoised(const GrayOnDisk& gray, const DenoiseSettings& settings,
+                                  const Workspace& work);
 
 struct SolidMask {
-  MaskVolume mask;
+  MaskOnDisk mask;
   GrayLevels levels;
 };
 /// Void and solid. Without a given threshold, Otsu's comes first; the means of what lies more than
 /// 2.5 voxels from its surface are the gray levels, and half way between them is the threshold.
 /// Throws Error when there is no solid or no void.
-[[nodiscard]] SolidMask find_solid(const GrayVolume& gray, const MaskSettings& settings);
+[[nodiscard]] SolidMask find_solid(const GrayOnDisk& gray, const MaskSettings& settings,
+                                   const Workspace& work);
+
+/// How a volume was split that is larger than memory.
+struct BlockFigures {
+  std::size_t blocks{1};
+  std::int32_t overlap{0};    ///< of the blocks [voxels]
+  std::uint64_t disputed{0};  ///< solid voxels that blocks give to different pieces, or to none
+};
 
 struct SplitGrains {
-  LabelVolume labels;       ///< consecutive from 1, in the order of their first voxels
-  std::uint32_t joined{0};  ///< pieces that join_wide_necks put together again
+  LabelsOnDisk labels;      ///< consecutive from 1, in the order of their first voxels
+  std::uint32_t joined{0};  ///< pieces that NeckJoiner put together again
+  BlockFigures blocks;
 };
-/// `gray` (as scanned, or null) and its levels tell necks that are solid from touching grains.
-/// Throws Error when nothing is found, or one blob reaches all through the volume.
-[[nodiscard]] SplitGrains split_grains(const MaskVolume& mask, const SplitSettings& settings,
-                                       const GrayVolume* gray = nullptr,
-                                       const GrayLevels& levels = {});
+/// Watershed of the depth below the surface, block by block: a piece is that of the block in whose
+/// core it is deepest. Then pieces are joined that no neck divides. `gray` (as scanned, or null)
+/// and its levels tell necks that are solid from touching grains. Throws Error when nothing is
+/// found, when one blob reaches all through the volume, or a piece reaches so near to a cut face of
+/// its block that its depth there is not known.
+[[nodiscard]] SplitGrains split_grains(const MaskOnDisk& mask, const SplitSettings& settings,
+                                       const GrayOnDisk* gray, const GrayLevels& levels,
+                                       const Workspace& work);
+
+/// Throws Error when one of the phases has no voxels.
+void require_both_phases(std::uint64_t solid, std::uint64_t voids, double threshold);
 
 /// The levels of a gray volume whose grains are known already.
-[[nodiscard]] GrayLevels levels_of(const GrayVolume& gray, const MaskVolume& mask,
-                                   double threshold);
+[[nodiscard]] GrayLevels levels_of(const GrayOnDisk& gray, const MaskOnDisk& mask, double threshold,
+                                   const Workspace& work);
 
 }  // namespace reckon

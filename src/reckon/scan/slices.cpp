@@ -15,8 +15,7 @@ using Colour = std::array<double, 3>;
 
 /// One slice across z, rows from the largest y down, as seen with y upwards.
 template <class ColourOf>
-void draw(const std::filesystem::path& file, const std::array<std::int32_t, 3>& dims,
-          ColourOf&& colour_of) {
+void draw(const std::filesystem::path& file, const VoxelDims& dims, ColourOf&& colour_of) {
   std::vector<std::uint8_t> rgb;
   for (std::int32_t j = dims[1] - 1; j >= 0; --j) {
     for (std::int32_t i = 0; i < dims[0]; ++i) {
@@ -44,29 +43,27 @@ Colour colour_of_label(std::uint32_t label) {
 /// Gray values of a slice as brightness, from its 1 % darkest to its 1 % brightest voxels.
 class Brightness {
  public:
-  Brightness(const GrayVolume& gray, std::int32_t k) : gray_{gray}, k_{k} {
-    const auto first = static_cast<std::ptrdiff_t>(gray.index(0, 0, k));
-    const auto count = static_cast<std::ptrdiff_t>(gray.index(0, 0, 1));
-    std::vector<float> sorted(gray.values.begin() + first, gray.values.begin() + first + count);
+  explicit Brightness(const GrayVolume& slice) : gray_{slice} {
+    std::vector<float> sorted = slice.values;
     std::sort(sorted.begin(), sorted.end());
     low_ = sorted[sorted.size() / 100];
     high_ = sorted[sorted.size() - 1 - sorted.size() / 100];
   }
   [[nodiscard]] double operator()(std::int32_t i, std::int32_t j) const {
     const double range = high_ > low_ ? high_ - low_ : 1;
-    return std::clamp((gray_.values[gray_.index(i, j, k_)] - low_) / range, 0.0, 1.0);
+    return std::clamp((gray_.values[gray_.index(i, j, gray_.low[2])] - low_) / range, 0.0, 1.0);
   }
 
  private:
   const GrayVolume& gray_;
-  std::int32_t k_;
   double low_{0};
   double high_{1};
 };
 
-/// Whether a voxel's value differs from that of the next along x or y.
+/// Whether, in a slice, a voxel's value differs from that of the next along x or y.
 template <class Value>
-bool on_edge(const Volume<Value>& volume, std::int32_t i, std::int32_t j, std::int32_t k) {
+bool on_edge(const Volume<Value>& volume, std::int32_t i, std::int32_t j) {
+  const std::int32_t k = volume.low[2];
   const Value here = volume.values[volume.index(i, j, k)];
   return (i + 1 < volume.dims[0] && volume.values[volume.index(i + 1, j, k)] != here) ||
          (j + 1 < volume.dims[1] && volume.values[volume.index(i, j + 1, k)] != here);
@@ -75,28 +72,33 @@ bool on_edge(const Volume<Value>& volume, std::int32_t i, std::int32_t j, std::i
 }  // namespace
 
 void write_slices(const Segmentation& scan, std::int32_t k, const std::filesystem::path& folder) {
-  const GrayVolume& shown = scan.denoised.values.empty() ? scan.raw : scan.denoised;
-  const Brightness brightness{shown, k};
+  const VoxelDims& dims = scan.raw.dims();
+  const Box slice{{0, 0, k}, {dims[0], dims[1], 1}};
+  const GrayVolume raw = scan.raw.read(slice);
+  const GrayVolume shown = scan.denoised.empty() ? raw : scan.denoised.read(slice);
+  const Brightness brightness{shown};
   const auto gray = [&](std::int32_t i, std::int32_t j) {
     const double b = brightness(i, j);
     return Colour{b, b, b};
   };
-  const Brightness raw_brightness{scan.raw, k};
-  draw(folder / "slice-scan.png", scan.raw.dims, [&](std::int32_t i, std::int32_t j) {
+  const Brightness raw_brightness{raw};
+  draw(folder / "slice-scan.png", dims, [&](std::int32_t i, std::int32_t j) {
     const double b = raw_brightness(i, j);
     return Colour{b, b, b};
   });
-  if (!scan.denoised.values.empty()) draw(folder / "slice-denoised.png", shown.dims, gray);
-  if (!scan.mask.values.empty()) {
-    draw(folder / "slice-solid.png", shown.dims, [&](std::int32_t i, std::int32_t j) {
-      return on_edge(scan.mask, i, j, k) ? Colour{1, 0.45, 0} : gray(i, j);
+  if (!scan.denoised.empty()) draw(folder / "slice-denoised.png", dims, gray);
+  if (!scan.mask.empty()) {
+    const MaskVolume mask = scan.mask.read(slice);
+    draw(folder / "slice-solid.png", dims, [&](std::int32_t i, std::int32_t j) {
+      return on_edge(mask, i, j) ? Colour{1, 0.45, 0} : gray(i, j);
     });
   }
-  if (scan.labels.values.empty()) return;
-  draw(folder / "slice-grains.png", shown.dims, [&](std::int32_t i, std::int32_t j) {
-    const std::uint32_t label = scan.labels.values[scan.labels.index(i, j, k)];
+  if (scan.labels.empty()) return;
+  const LabelVolume labels = scan.labels.read(slice);
+  draw(folder / "slice-grains.png", dims, [&](std::int32_t i, std::int32_t j) {
+    const std::uint32_t label = labels.values[labels.index(i, j, k)];
     if (label == 0) return Colour{0, 0, 0};
-    if (on_edge(scan.labels, i, j, k)) return Colour{0, 0, 0};
+    if (on_edge(labels, i, j)) return Colour{0, 0, 0};
     const bool kept = scan.choice.kept.empty() ||
                       std::binary_search(scan.choice.kept.begin(), scan.choice.kept.end(), label);
     const Colour colour = colour_of_label(label);

@@ -78,7 +78,7 @@ std::vector<double> numbers_in(std::string_view text, const std::string& place) 
   return numbers;
 }
 
-void set_dims(TextHeader& header, std::string_view text, const std::string& place) {
+void set_dims(VolumeHeader& header, std::string_view text, const std::string& place) {
   const auto numbers = numbers_in(text, place);
   if (numbers.size() != 3) {
     refuse_volume(place, "this is no volume", fmt::format("it has {} dimensions", numbers.size()),
@@ -94,7 +94,7 @@ void set_dims(TextHeader& header, std::string_view text, const std::string& plac
 }
 
 /// One length per axis, or one vector per axis.
-void set_spacing(TextHeader& header, std::string_view text, const std::string& place) {
+void set_spacing(VolumeHeader& header, std::string_view text, const std::string& place) {
   const auto numbers = numbers_in(text, place);
   std::array<double, 3> edges{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -115,7 +115,7 @@ void set_spacing(TextHeader& header, std::string_view text, const std::string& p
   header.spacing = edges[0];
 }
 
-void require_complete(const TextHeader& header, bool has_type, const std::string& place) {
+void require_complete(const VolumeHeader& header, bool has_type, const std::string& place) {
   if (has_type && header.dims[0] > 0) return;
   refuse_volume(place, "the header is not whole", "type or dimensions are missing",
                 "Copy it again.");
@@ -126,7 +126,6 @@ void require_complete(const TextHeader& header, bool has_type, const std::string
 template <class Take>
 std::size_t for_each_line(std::string_view bytes, const std::string& place, Take&& take) {
   constexpr std::size_t longest_line = 1000;
-  constexpr std::size_t longest_header = 65536;
   for (std::size_t begin = 0; begin < std::min(bytes.size(), longest_header);) {
     const std::size_t end = bytes.find('\n', begin);
     if (end == std::string_view::npos || end - begin > longest_line) break;
@@ -138,8 +137,8 @@ std::size_t for_each_line(std::string_view bytes, const std::string& place, Take
 
 }  // namespace
 
-TextHeader parse_metaimage_header(std::string_view bytes, const std::string& place) {
-  TextHeader header;
+VolumeHeader parse_metaimage_header(std::string_view bytes, const std::string& place) {
+  VolumeHeader header;
   bool has_type = false;
   header.data_start = for_each_line(bytes, place, [&](std::string_view line) {
     const std::size_t equals = line.find('=');
@@ -178,12 +177,12 @@ TextHeader parse_metaimage_header(std::string_view bytes, const std::string& pla
   return header;
 }
 
-TextHeader parse_nrrd_header(std::string_view bytes, const std::string& place) {
+VolumeHeader parse_nrrd_header(std::string_view bytes, const std::string& place) {
   if (!bytes.starts_with("NRRD000")) {
     refuse_volume(place, "this is no NRRD file", "it does not begin with NRRD000",
                   "Check its name.");
   }
-  TextHeader header;
+  VolumeHeader header;
   bool has_type = false;
   bool first = true;
   header.data_start = for_each_line(bytes, place, [&](std::string_view line) {

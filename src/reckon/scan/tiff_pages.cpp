@@ -34,6 +34,7 @@ class TiffFile {
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] bool big() const { return big_; }
+  [[nodiscard]] bool big_endian() const { return order_ == ByteReader::Order::big_endian; }
   [[nodiscard]] std::uint64_t number(std::uint64_t offset, std::size_t length) {
     const std::string text = bytes(offset, length);
     return ByteReader{text, path_.string(), order_}.unsigned_integer(length);
@@ -61,16 +62,38 @@ class TiffFile {
 struct TiffPage {
   std::uint64_t width{0};
   std::uint64_t height{0};
-  std::uint64_t next{0};      // the next page's directory; 0: none
-  std::uint64_t data_end{0};  // of the last strip or tile
+  std::uint64_t next{0};        // the next page's directory; 0: none
+  std::uint64_t data_start{0};  // of the first strip or tile
+  std::uint64_t data_end{0};    // of the last one
+  std::uint64_t bits{1};        // of a number
+  std::uint64_t format{1};      // 1: unsigned, 2: signed, 3: float
+  bool plain{true};             // black is 0, one number a pixel, rows from the top, not compressed
+
+  /// Numbers that lie in the file as in memory; which strips they are cut into does not matter.
+  [[nodiscard]] std::optional<VoxelType> plain_type() const {
+    if (!plain || width * height > data_end) return std::nullopt;
+    if (data_end - data_start != width * height * bits / 8) return std::nullopt;
+    if (format == 3) {
+      return bits == 32 ? std::optional{VoxelType::float32} : std::nullopt;
+    }
+    if (bits == 8) return format == 2 ? VoxelType::int8 : VoxelType::uint8;
+    if (bits == 16) return format == 2 ? VoxelType::int16 : VoxelType::uint16;
+    return std::nullopt;
+  }
 };
 
 constexpr std::uint64_t tag_width = 256;
 constexpr std::uint64_t tag_height = 257;
+constexpr std::uint64_t tag_bits = 258;
+constexpr std::uint64_t tag_compression = 259;
+constexpr std::uint64_t tag_photometric = 262;
 constexpr std::uint64_t tag_strip_offsets = 273;
+constexpr std::uint64_t tag_orientation = 274;
+constexpr std::uint64_t tag_samples = 277;
 constexpr std::uint64_t tag_strip_sizes = 279;
 constexpr std::uint64_t tag_tile_offsets = 324;
 constexpr std::uint64_t tag_tile_sizes = 325;
+constexpr std::uint64_t tag_format = 339;
 
 std::size_t size_of_type(std::uint64_t type) {
   return type == 3 ? 2 : type == 16 || type == 17 || type == 18 ? 8 : type == 1 ? 1 : 4;
@@ -97,7 +120,16 @@ TiffPage read_page(TiffFile& file, std::uint64_t directory) {
     };
     if (tag == tag_width) page.width = last();
     if (tag == tag_height) page.height = last();
-    if (tag == tag_strip_offsets || tag == tag_tile_offsets) last_offset = last();
+    if (tag == tag_strip_offsets || tag == tag_tile_offsets) {
+      page.data_start = file.number(values, length);
+      last_offset = last();
+    }
+    if (tag == tag_bits) page.bits = last();
+    if (tag == tag_format) page.format = last();
+    const bool is_one = tag == tag_compression || tag == tag_photometric ||
+                        tag == tag_orientation || tag == tag_samples;
+    if (is_one && last() != 1) page.plain = false;
+    if (tag == tag_tile_offsets) page.plain = false;
     if (tag == tag_strip_sizes || tag == tag_tile_sizes) last_size = last();
   }
   page.next = file.number(directory + count_size + entries * entry_size, word);
@@ -107,29 +139,46 @@ TiffPage read_page(TiffFile& file, std::uint64_t directory) {
 
 }  // namespace
 
-void check_tiff_pages(const std::filesystem::path& path) {
+TiffPages read_tiff_pages(const std::filesystem::path& path) {
   TiffFile file{path};
   std::uint64_t directory = file.big() ? file.number(8, 8) : file.number(4, 4);
   std::optional<TiffPage> first;
-  std::uint64_t pages = 0;
+  TiffPages pages;
+  bool plain = true;
   while (directory != 0) {
     const TiffPage page = read_page(file, directory);
-    ++pages;
+    ++pages.count;
     if (!first) first = page;
     if (page.width != first->width || page.height != first->height) {
       refuse_volume(path, "the pages of the stack differ in size",
-                    fmt::format("page {} has {} x {} pixels, the first {} x {}", pages, page.width,
-                                page.height, first->width, first->height),
+                    fmt::format("page {} has {} x {} pixels, the first {} x {}", pages.count,
+                                page.width, page.height, first->width, first->height),
                     "Give a stack whose slices all have one size.");
     }
     if (page.data_end > file.size()) {
-      fail_cut_short(path, fmt::format("page {} ends at byte {}, the file at {}", pages,
+      fail_cut_short(path, fmt::format("page {} ends at byte {}, the file at {}", pages.count,
                                        page.data_end, file.size()));
     }
-    if (pages > file.size() / 16) fail_cut_short(path, "its pages follow each other in a circle");
+    if (pages.count > file.size() / 16) {
+      fail_cut_short(path, "its pages follow each other in a circle");
+    }
+    const auto type = page.plain_type();
+    plain &= type && type == first->plain_type();
+    pages.layer_starts.push_back(page.data_start);
     directory = page.next;
   }
-  if (pages == 0) fail_cut_short(path, "it has no pages");
+  if (pages.count == 0) fail_cut_short(path, "it has no pages");
+  if (!plain) {
+    pages.layer_starts.clear();
+    return pages;
+  }
+  pages.header.type = *first->plain_type();
+  pages.header.big_endian = file.big_endian();
+  pages.header.dims = {static_cast<std::int64_t>(first->width),
+                       static_cast<std::int64_t>(first->height),
+                       static_cast<std::int64_t>(pages.count)};
+  check_dims(pages.header.dims, file.size(), path.string());
+  return pages;
 }
 
 }  // namespace reckon

@@ -43,7 +43,7 @@ std::filesystem::path sidecar_of(const std::filesystem::path& file) {
   return file.string() + ".txt";
 }
 
-StoredVolume read_slices(const std::filesystem::path& folder) {
+std::unique_ptr<VolumeReader> open_slices(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator{folder}) {
     if (entry.is_regular_file() && is_tiff(entry.path())) files.push_back(entry.path());
@@ -53,64 +53,85 @@ StoredVolume read_slices(const std::filesystem::path& folder) {
                   "Name a folder of .tif files, one slice each, or a volume file.");
   }
   std::sort(files.begin(), files.end());
-  return read_itk_slices(files);
+  return open_itk_slices(std::move(files));
 }
 
-StoredVolume read_raw(const std::filesystem::path& file) {
+std::unique_ptr<VolumeReader> open_raw(const std::filesystem::path& file) {
   const std::filesystem::path sidecar = sidecar_of(file);
   if (!std::filesystem::exists(sidecar)) {
     refuse_volume(file, "a raw volume does not say what its numbers are",
                   "there is no " + sidecar.filename().string() + " beside it",
                   "Write that file: lines `dims NX NY NZ`, `type uint16`, `order little`.");
   }
-  return parse_raw(read_file(file), read_file(sidecar), file.string());
+  return open_plain_volume(file, parse_raw_sidecar(read_file(sidecar), sidecar.string()));
+}
+
+std::string beginning_of(const std::filesystem::path& file) {
+  const ByteFile content{file};
+  std::string bytes(std::min<std::uint64_t>(content.size(), longest_header), '\0');
+  content.read(0, std::as_writable_bytes(std::span{bytes}));
+  return bytes;
 }
 
 /// MetaImage or NRRD. Only compressed numbers need the toolkit.
-StoredVolume read_with_text_header(const std::filesystem::path& file, bool nrrd) {
-  const std::string bytes = read_file(file);
-  const TextHeader header =
+std::unique_ptr<VolumeReader> open_with_text_header(const std::filesystem::path& file, bool nrrd,
+                                                    std::uint64_t memory) {
+  const std::string bytes = beginning_of(file);
+  VolumeHeader header =
       nrrd ? parse_nrrd_header(bytes, file.string()) : parse_metaimage_header(bytes, file.string());
-  if (header.compressed) return read_itk_volume(file);
-  std::string_view numbers = std::string_view{bytes}.substr(header.data_start);
-  std::string others;
-  if (!header.data_file.empty()) {
-    others = read_file(file.parent_path() / header.data_file);
-    numbers = others;
-  }
-  StoredVolume stored =
-      assemble_volume(header.dims, header.type, header.big_endian, numbers, file.string());
-  stored.spacing = header.spacing;
-  return stored;
+  if (header.compressed) return unpack_itk_volume(file, memory);
+  if (header.data_file.empty()) return open_plain_volume(file, header);
+  header.data_start = 0;
+  return open_plain_volume(file.parent_path() / header.data_file, header);
 }
 
-StoredVolume read_stored(const VolumeRequest& request) {
+std::unique_ptr<VolumeReader> open_tiff(const std::filesystem::path& file, std::uint64_t memory) {
+  TiffPages pages = read_tiff_pages(file);
+  if (pages.layer_starts.size() < 2) return unpack_itk_volume(file, memory);
+  return open_plain_volume(file, pages.header, std::move(pages.layer_starts));
+}
+
+std::unique_ptr<VolumeReader> open_by_ending(const VolumeRequest& request, std::uint64_t memory) {
   const std::filesystem::path& file = request.file;
-  if (std::filesystem::is_directory(file)) return read_slices(file);
+  if (std::filesystem::is_directory(file)) return open_slices(file);
   if (!std::filesystem::exists(file)) {
     refuse_volume(file, "there is no such file", {}, "Check its name.");
   }
   const std::string ending = ending_of(file);
-  if (ending == ".raw") return read_raw(file);
-  if (ending == ".npy") return parse_npy(read_file(file), file.string());
-  if (ending == ".h5" || ending == ".hdf5") return read_hdf5_volume(file, request.dataset);
-  if (ending == ".mha" || ending == ".mhd") return read_with_text_header(file, false);
-  if (ending == ".nrrd" || ending == ".nhdr") return read_with_text_header(file, true);
-  if (is_tiff(file)) return read_itk_volume(file);
+  if (ending == ".raw") return open_raw(file);
+  if (ending == ".npy") {
+    return open_plain_volume(file, parse_npy_header(beginning_of(file), file.string()));
+  }
+  if (ending == ".h5" || ending == ".hdf5") return open_hdf5_volume(file, request.dataset);
+  if (ending == ".mha" || ending == ".mhd") return open_with_text_header(file, false, memory);
+  if (ending == ".nrrd" || ending == ".nhdr") return open_with_text_header(file, true, memory);
+  if (is_tiff(file)) return open_tiff(file, memory);
   refuse_ending(file);
+}
+
+void check_finite(const GrayVolume& layers, const std::string& place) {
+  const auto bad = std::find_if(layers.values.begin(), layers.values.end(),
+                                [](float value) { return !std::isfinite(value); });
+  if (bad == layers.values.end()) return;
+  const auto before =
+      static_cast<std::size_t>(layers.low[2]) * layers.index(0, 0, layers.low[2] + 1);
+  refuse_volume(place, "the volume holds a value that is not finite",
+                fmt::format("voxel {} in the file's order",
+                            before + static_cast<std::size_t>(bad - layers.values.begin())),
+                "Replace such values first.");
 }
 
 /// The file's own spacing has no sure unit, and many programs write 1 for "not known". If it fits
 /// in no unit, somebody is mistaken.
-void check_spacing(const StoredVolume& stored, double voxel, const std::string& place) {
-  if (!stored.spacing || *stored.spacing == 1) return;
+void check_spacing(const std::optional<double>& spacing, double voxel, const std::string& place) {
+  if (!spacing || *spacing == 1) return;
   for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
-    if (std::abs(*stored.spacing * unit / voxel - 1) < 0.01) return;
+    if (std::abs(*spacing * unit / voxel - 1) < 0.01) return;
   }
   refuse_volume(
       place, "the file tells another voxel than was given",
       fmt::format("{:.6g} in the file, {:.6g} m given; they agree in none of m, mm, um and nm",
-                  *stored.spacing, voxel),
+                  *spacing, voxel),
       "Check --voxel.");
 }
 
@@ -124,19 +145,41 @@ void refuse_volume(const std::string& place, std::string problem, std::string re
                .fix = std::move(fix)}};
 }
 
+std::unique_ptr<VolumeReader> open_volume(const VolumeRequest& request, std::uint64_t memory) {
+  auto reader = open_by_ending(request, memory);
+  check_spacing(reader->outline.spacing, request.voxel, request.file.string());
+  return reader;
+}
+
 StoredVolume read_volume(const VolumeRequest& request) {
-  StoredVolume stored = read_stored(request);
-  const std::string place = request.file.string();
-  check_spacing(stored, request.voxel, place);
-  const auto bad = std::find_if(stored.gray.values.begin(), stored.gray.values.end(),
-                                [](float value) { return !std::isfinite(value); });
-  if (bad != stored.gray.values.end()) {
-    refuse_volume(place, "the volume holds a value that is not finite",
-                  fmt::format("voxel {} in the file's order", bad - stored.gray.values.begin()),
-                  "Replace such values first.");
-  }
+  const auto reader = open_volume(request);
+  StoredVolume stored{reader->outline, reader->read_layers(0, reader->outline.dims[2])};
+  check_finite(stored.gray, request.file.string());
   stored.gray.voxel = request.voxel;
   return stored;
+}
+
+GrayOnDisk load_volume(const VolumeRequest& request, const Workspace& work,
+                       const std::function<void(const GrayVolume&)>& on_layers) {
+  const auto reader = open_volume(request, work.memory_limit());
+  GrayOnDisk volume{reader->outline.dims, request.voxel, work.folder};
+  for (const Box& slab : work.slabs(volume.dims())) {
+    const GrayVolume layers = reader->read_layers(slab.low[2], slab.dims[2]);
+    check_finite(layers, request.file.string());
+    if (on_layers) on_layers(layers);
+    volume.write(layers, slab);
+  }
+  return volume;
+}
+
+LabelsOnDisk load_labels(const VolumeRequest& request, const Workspace& work) {
+  const auto reader = open_volume(request, work.memory_limit());
+  LabelsOnDisk labels{reader->outline.dims, request.voxel, work.folder};
+  for (const Box& slab : work.slabs(labels.dims())) {
+    labels.write(to_labels(reader->read_layers(slab.low[2], slab.dims[2]), request.file.string()),
+                 slab);
+  }
+  return labels;
 }
 
 void write_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type) {

@@ -4,11 +4,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "reckon/scan/blocks.hpp"
+#include "reckon/scan/disk_volume.hpp"
 #include "reckon/scan/volume.hpp"
 
 namespace reckon {
@@ -27,11 +30,27 @@ struct VolumeRequest {
   std::string dataset;         ///< HDF5 only; empty: the only one of three dimensions
 };
 
-/// A volume as it was stored.
-struct StoredVolume {
-  GrayVolume gray;  ///< values as float; whole numbers are exact up to 2^24
+/// What a volume's file says about it.
+struct VolumeOutline {
+  VoxelDims dims{0, 0, 0};
   VoxelType type{VoxelType::float32};
   std::optional<double> spacing;  ///< a voxel's edge as the file tells it, in whatever unit
+};
+
+/// A volume's file, of which layers across z are read.
+class VolumeReader {
+ public:
+  virtual ~VolumeReader() = default;
+
+  VolumeOutline outline;
+
+  /// So many layers from `first` on. Values as float; whole numbers are exact up to 2^24.
+  [[nodiscard]] virtual GrayVolume read_layers(std::int32_t first, std::int32_t count) = 0;
+};
+
+/// A volume as it was stored.
+struct StoredVolume : VolumeOutline {
+  GrayVolume gray;
 };
 
 /// Reads a volume by the ending of its name:
@@ -44,9 +63,21 @@ struct StoredVolume {
 ///   .nrrd .nhdr NRRD            (likewise)
 ///   .tif .tiff  a multi-page file, or a folder of slices in the order of their names (likewise)
 ///
-/// Throws Error when the file is damaged, cut short, of another number of dimensions, holds values
-/// that are not finite, its slices differ in size, or the voxel that it tells is not `voxel`.
+/// Layers are read as they are asked for, but for MetaImage and NRRD with compressed numbers and
+/// multi-page TIFF files that are not plain: these are unpacked at once, in memory.
+///
+/// Throws Error when the file is damaged, cut short, of another number of dimensions, its slices
+/// differ in size, the voxel that it tells is not that of the request, or it must be unpacked and
+/// does not fit into `memory` [bytes; 0: no limit].
+[[nodiscard]] std::unique_ptr<VolumeReader> open_volume(const VolumeRequest& request,
+                                                        std::uint64_t memory = 0);
+/// All of a volume. Throws Error also when it holds values that are not finite.
 [[nodiscard]] StoredVolume read_volume(const VolumeRequest& request);
+/// Likewise, from file to file. `on_layers` sees it pass by.
+[[nodiscard]] GrayOnDisk load_volume(const VolumeRequest& request, const Workspace& work,
+                                     const std::function<void(const GrayVolume&)>& on_layers = {});
+/// A volume of labels: whole numbers not below zero. Throws Error when a value is not.
+[[nodiscard]] LabelsOnDisk load_labels(const VolumeRequest& request, const Workspace& work);
 
 /// Writes a volume, in the format of its ending, as numbers of `type`: rounded to integers and
 /// clamped to their range. A .raw gets its sidecar. TIFF files are multi-page.
@@ -56,11 +87,5 @@ void write_volume(const std::filesystem::path& file, const GrayVolume& volume, V
 [[nodiscard]] GrayVolume to_gray(const LabelVolume& labels);
 /// The reverse: whole numbers not below zero. Throws Error when a value is not.
 [[nodiscard]] LabelVolume to_labels(const GrayVolume& volume, const std::string& place);
-
-/// A NumPy file's content.
-[[nodiscard]] StoredVolume parse_npy(std::string_view bytes, const std::string& name);
-/// A raw volume and the text of its sidecar.
-[[nodiscard]] StoredVolume parse_raw(std::string_view bytes, std::string_view sidecar,
-                                     const std::string& name);
 
 }  // namespace reckon

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,40 +32,59 @@ namespace reckon {
 void check_dims(const std::array<std::int64_t, 3>& dims, std::uint64_t most,
                 const std::string& place);
 
-[[nodiscard]] StoredVolume read_hdf5_volume(const std::filesystem::path& file,
-                                            const std::string& dataset);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_hdf5_volume(const std::filesystem::path& file,
+                                                             const std::string& dataset);
 void write_hdf5_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type);
 
-/// What the text at the head of a MetaImage or NRRD file says. Headers are read by ourselves: the
-/// libraries for these formats do not survive every damaged header, and take less than a whole file
-/// for whole.
-struct TextHeader {
+/// What the head of a file says, or what stands for it. Heads of MetaImage and NRRD are read by
+/// ourselves: the libraries for these formats do not survive every damaged one, and take less than
+/// a whole file for whole.
+struct VolumeHeader {
   std::array<std::int64_t, 3> dims{};
   VoxelType type{VoxelType::uint8};
   bool big_endian{false};
   bool compressed{false};
   std::optional<double> spacing;
-  std::string data_file;      ///< beside the header; empty: the numbers follow the header
-  std::size_t data_start{0};  ///< length of the header
+  std::string data_file;        ///< beside the header; empty: the numbers follow the header
+  std::uint64_t data_start{0};  ///< length of the header
 };
-/// Throw Error for whatever they do not understand.
-[[nodiscard]] TextHeader parse_metaimage_header(std::string_view bytes, const std::string& place);
-[[nodiscard]] TextHeader parse_nrrd_header(std::string_view bytes, const std::string& place);
+/// From the first bytes of a file. Throw Error for whatever they do not understand.
+[[nodiscard]] VolumeHeader parse_metaimage_header(std::string_view bytes, const std::string& place);
+[[nodiscard]] VolumeHeader parse_nrrd_header(std::string_view bytes, const std::string& place);
+[[nodiscard]] VolumeHeader parse_npy_header(std::string_view bytes, const std::string& name);
+/// The text beside a raw volume.
+[[nodiscard]] VolumeHeader parse_raw_sidecar(std::string_view text, const std::string& name);
+/// How much of a file's beginning they need at most [bytes].
+inline constexpr std::size_t longest_header = 131072;
 
-/// The volume of these numbers. Throws Error unless `bytes` are just what it needs.
-[[nodiscard]] StoredVolume assemble_volume(const std::array<std::int64_t, 3>& dims, VoxelType type,
-                                           bool swap, std::string_view bytes,
-                                           const std::string& place);
+/// Throws Error unless the numbers take just `bytes`.
+void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::string& place);
 
-/// Throws Error unless all pages of a TIFF file are there and of one size.
-void check_tiff_pages(const std::filesystem::path& path);
+/// A volume whose layers lie in a file as they are, each from its own byte on.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_plain_volume(
+    const std::filesystem::path& file, const VolumeHeader& header,
+    std::vector<std::uint64_t> layer_starts);
+/// Likewise, one behind the other; throws Error unless they fill the file.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_plain_volume(const std::filesystem::path& file,
+                                                              const VolumeHeader& header);
+
+/// The pages of a TIFF file. Throws Error unless all are there and of one size.
+struct TiffPages {
+  VolumeHeader header;                      ///< only if they are plain
+  std::vector<std::uint64_t> layer_starts;  ///< likewise; else empty
+  std::uint64_t count{0};
+};
+[[nodiscard]] TiffPages read_tiff_pages(const std::filesystem::path& path);
 
 // Those of the component `ct`.
 
-/// TIFF, or MetaImage or NRRD with compressed numbers, by the ending.
-[[nodiscard]] StoredVolume read_itk_volume(const std::filesystem::path& file);
+/// TIFF, or MetaImage or NRRD with compressed numbers, by the ending. Throws Error when it does not
+/// fit into `memory` [bytes; 0: no limit].
+[[nodiscard]] std::unique_ptr<VolumeReader> unpack_itk_volume(const std::filesystem::path& file,
+                                                              std::uint64_t memory);
 /// Slices of one volume, in this order.
-[[nodiscard]] StoredVolume read_itk_slices(const std::vector<std::filesystem::path>& files);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_itk_slices(
+    std::vector<std::filesystem::path> files);
 void write_itk_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type);
 
 }  // namespace reckon

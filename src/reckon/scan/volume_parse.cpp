@@ -53,27 +53,20 @@ std::array<std::int64_t, 3> numpy_shape(std::string_view text, const std::string
 
 }  // namespace
 
-StoredVolume assemble_volume(const std::array<std::int64_t, 3>& dims, VoxelType type, bool swap,
-                             std::string_view bytes, const std::string& place) {
-  check_dims(dims, bytes.size() / size_of(type), place);
+void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::string& place) {
+  const auto& dims = header.dims;
+  const std::size_t size = size_of(header.type);
+  check_dims(dims, bytes / size, place);
   const auto count = static_cast<std::uint64_t>(dims[0]) * static_cast<std::uint64_t>(dims[1]) *
                      static_cast<std::uint64_t>(dims[2]);
-  if (count * size_of(type) != bytes.size()) {
-    refuse_volume(place, "the volume and its header disagree",
-                  fmt::format("{} x {} x {} {} take {} bytes, {} are there", dims[0], dims[1],
-                              dims[2], name_of(type), count * size_of(type), bytes.size()),
-                  "Check dimensions and type.");
-  }
-  StoredVolume stored;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    stored.gray.dims[axis] = static_cast<std::int32_t>(dims[axis]);
-  }
-  stored.gray.values = decode_numbers(bytes, type, swap);
-  stored.type = type;
-  return stored;
+  if (count * size == bytes) return;
+  refuse_volume(place, "the volume and its header disagree",
+                fmt::format("{} x {} x {} {} take {} bytes, {} are there", dims[0], dims[1],
+                            dims[2], name_of(header.type), count * size, bytes),
+                "Check dimensions and type.");
 }
 
-StoredVolume parse_npy(std::string_view bytes, const std::string& name) {
+VolumeHeader parse_npy_header(std::string_view bytes, const std::string& name) {
   constexpr std::string_view magic{"\x93NUMPY", 6};
   if (bytes.size() < 12 || !bytes.starts_with(magic)) {
     refuse_volume(name, "this is no NumPy file", "it does not begin with \\x93NUMPY",
@@ -106,21 +99,23 @@ StoredVolume parse_npy(std::string_view bytes, const std::string& name) {
     refuse_volume(name, "the array is in Fortran order", {}, "Save numpy.ascontiguousarray(a).");
   }
   const auto shape = numpy_shape(value_after(header, "'shape'", name), name);
-  return assemble_volume({shape[2], shape[1], shape[0]}, *type, big, bytes.substr(start + length),
-                         name);
+  VolumeHeader result;
+  result.dims = {shape[2], shape[1], shape[0]};
+  result.type = *type;
+  result.big_endian = big;
+  result.data_start = start + length;
+  return result;
 }
 
-StoredVolume parse_raw(std::string_view bytes, std::string_view sidecar, const std::string& name) {
-  const std::string sidecar_name = name + ".txt";
-  TextReader reader{sidecar, sidecar_name};
-  std::array<std::int64_t, 3> dims{};
+VolumeHeader parse_raw_sidecar(std::string_view text, const std::string& name) {
+  TextReader reader{text, name};
+  VolumeHeader header;
   std::optional<VoxelType> type;
-  bool big = false;
   while (reader.next_line()) {
     const std::string_view key = reader.next_token();
     if (key.empty() || key.starts_with('#')) continue;
     if (key == "dims") {
-      for (std::int64_t& dim : dims) dim = reader.next_integer("number of voxels");
+      for (std::int64_t& dim : header.dims) dim = reader.next_integer("number of voxels");
     } else if (key == "type") {
       const std::string_view word = reader.next_token();
       type = voxel_type_named(word);
@@ -133,17 +128,18 @@ StoredVolume parse_raw(std::string_view bytes, std::string_view sidecar, const s
       if (word != "little" && word != "big") {
         reader.fail("the byte order is not known", in_quotes(word), "Write little or big.");
       }
-      big = word == "big";
+      header.big_endian = word == "big";
     } else {
       reader.fail("the line is not understood", in_quotes(key),
                   "Lines are `dims NX NY NZ`, `type uint16`, `order little`.");
     }
   }
-  if (!type || dims[0] == 0) {
-    refuse_volume(sidecar_name, "dims or type are missing", {},
+  if (!type || header.dims[0] == 0) {
+    refuse_volume(name, "dims or type are missing", {},
                   "Write lines `dims NX NY NZ`, `type uint16`, `order little`.");
   }
-  return assemble_volume(dims, *type, big, bytes, name);
+  header.type = *type;
+  return header;
 }
 
 }  // namespace reckon

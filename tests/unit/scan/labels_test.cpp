@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 namespace reckon {
 namespace {
 
@@ -19,13 +21,23 @@ GrayVolume depths(const std::vector<float>& values) {
   return volume;
 }
 
+/// Joins the pieces of a whole volume; returns how many were joined to others.
+std::uint32_t join(LabelVolume& labels, const GrayVolume& depth, const NeckRules& rules,
+                   const GrayVolume* gray = nullptr) {
+  NeckJoiner joiner;
+  joiner.add(labels, depth, gray, labels.dims[2]);
+  const JoinedPieces joined = joiner.join(rules);
+  for (std::uint32_t& label : labels.values) label = joined.label[label];
+  return joined.joined;
+}
+
 TEST(Labels, WideNecksAreJoinedAndNarrowOnesNot) {
   const GrayVolume depth = depths({1, 10, 9.5F, 9.4F, 10, 3, 2.9F, 8, 1});
   LabelVolume labels = line({1, 1, 1, 2, 2, 2, 3, 3, 3});
-  EXPECT_EQ(join_wide_necks(labels, depth, {.wide = 0.9}), 1U);
+  EXPECT_EQ(join(labels, depth, {.wide = 0.9}), 1U);
   EXPECT_EQ(labels.values, (std::vector<std::uint32_t>{1, 1, 1, 1, 1, 1, 3, 3, 3}));
   LabelVolume strict = line({1, 1, 1, 2, 2, 2, 3, 3, 3});
-  EXPECT_EQ(join_wide_necks(strict, depth, {.wide = 0.95}), 0U);
+  EXPECT_EQ(join(strict, depth, {.wide = 0.95}), 0U);
 }
 
 TEST(Labels, NarrowNecksAreJoinedWhereTheGrayIsThatOfSolid) {
@@ -46,17 +58,19 @@ TEST(Labels, NarrowNecksAreJoinedWhereTheGrayIsThatOfSolid) {
       for (const std::int32_t i : {19, 20}) gray.values[gray.index(i, j, 0)] = gray_of_neck;
     }
     LabelVolume labels = pieces;
-    return join_wide_necks(labels, depth, {.gray = &gray, .void_gray = 100, .solid_gray = 200});
+    return join(labels, depth, {.void_gray = 100, .solid_gray = 200}, &gray);
   };
   EXPECT_EQ(joined(184), 1U);
   EXPECT_EQ(joined(180), 0U);  // about 5 % of the step of 85 are missing
   LabelVolume labels = pieces;
-  EXPECT_EQ(join_wide_necks(labels, depth, {}), 0U);
+  EXPECT_EQ(join(labels, depth, {}), 0U);
 }
 
 TEST(Labels, NumbersFollowTheFirstVoxels) {
   LabelVolume labels = line({0, 7, 7, 3, 0, 9, 7});
-  EXPECT_EQ(renumber(labels), 3U);
+  Renumbering numbering;
+  numbering.apply(labels);
+  EXPECT_EQ(numbering.count(), 3U);
   EXPECT_EQ(labels.values, (std::vector<std::uint32_t>{0, 1, 1, 2, 0, 3, 1}));
 }
 
@@ -72,7 +86,8 @@ TEST(Labels, GrainsAreCountedByWhyTheyAreDropped) {
   fill(0, 1, 1);
   fill(3, 4, 2);
   fill(6, 6, 3);
-  const auto grains = measure_labels(labels);
+  const Workspace work{std::filesystem::temp_directory_path(), 0, 0};
+  const auto grains = measure_labels(on_disk(labels, work.folder), work);
   ASSERT_EQ(grains.size(), 3U);
   EXPECT_EQ(grains[1].voxels, 18U);
   EXPECT_EQ(grains[1].low, (std::array<std::int32_t, 3>{3, 1, 1}));

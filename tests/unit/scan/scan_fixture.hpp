@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "reckon/avatar/random_variates.hpp"
@@ -47,30 +48,31 @@ inline TestAssembly bumpy_assembly(int nx, int ny, int nz) {
   return assembly;
 }
 
-/// All of `reckon grains from-scan` on a scan in memory.
+/// All of `reckon grains from-scan` on a simulated scan.
 struct ChainResult {
   LabelVolume labels;
   ScannedAssembly assembly;
   TruthFigures figures;
+  BlockFigures blocks;
 };
-inline ChainResult run_chain(const TestAssembly& truth, const SimulatedScan& scan) {
-  Segmentation parts;
-  parts.raw = scan.gray;
-  parts.denoised = denoised(parts.raw, {});
-  SolidMask solid = find_solid(parts.denoised, {});
-  parts.labels = split_grains(solid.mask, {}, &parts.raw, solid.levels).labels;
-  parts.grains = measure_labels(parts.labels);
-  parts.choice = choose_grains(parts.grains, false, 500);
-  const LabelVolume territories = grown(parts.labels, territory_layers);
+inline ChainResult run_chain(const TestAssembly& truth, const SimulatedScan& scan,
+                             const Workspace& work = {std::filesystem::temp_directory_path(), 0,
+                                                      0}) {
+  const GrayOnDisk raw = on_disk(scan.gray, work.folder);
+  const GrayOnDisk quiet = denoised(raw, {}, work);
+  const SolidMask solid = find_solid(quiet, {}, work);
+  const SplitGrains split = split_grains(solid.mask, {}, &raw, solid.levels, work);
+  const auto grains = measure_labels(split.labels, work);
   AvatarSettings settings;
   settings.resolution.voxel_size = scan.gray.voxel;
   ChainResult result;
-  result.assembly =
-      make_avatars({&parts.raw, &parts.denoised, &parts.labels, &territories, solid.levels},
-                   parts.grains, parts.choice.kept, settings, {});
+  result.assembly = make_avatars({raw, quiet, split.labels, solid.levels, work}, grains,
+                                 choose_grains(grains, false, 500).kept, settings, {});
   result.figures =
-      compare_with_truth({truth.shapes, scan.grains, scan.labels}, result.assembly, parts.labels);
-  result.labels = std::move(parts.labels);
+      compare_with_truth({truth.shapes, scan.grains, on_disk(scan.labels, work.folder)},
+                         result.assembly, split.labels, work);
+  result.labels = split.labels.read(split.labels.box());
+  result.blocks = split.blocks;
   return result;
 }
 

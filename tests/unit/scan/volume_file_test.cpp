@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -53,6 +54,65 @@ TEST_F(VolumeFile, EveryFormatGivesBackWhatWasWritten) {
       EXPECT_EQ(back.type, type);
     }
   }
+}
+
+TEST_F(VolumeFile, LayersAreReadAloneWithoutUnpacking) {
+  constexpr std::uint64_t no_memory = 1;
+  const GrayVolume volume = counted(7, 5, 4);
+  std::vector<std::string> names{"a.raw", "a.npy", "a.h5"};
+  if (has_ct_component()) {
+    names.insert(names.end(), {"a.mha", "a.nrrd", "a.tif", "slices"});
+    std::filesystem::create_directories(path("slices"));
+    for (std::int32_t k = 0; k < 4; ++k) {
+      GrayVolume slice{{7, 5, 1}, 2e-6};
+      std::copy_n(volume.values.begin() + 35 * k, 35, slice.values.begin());
+      write_volume(path("slices/" + std::to_string(k) + ".tif"), slice, VoxelType::uint16);
+    }
+  }
+  for (const std::string& name : names) {
+    SCOPED_TRACE(name);
+    if (name != "slices") write_volume(path(name), volume, VoxelType::uint16);
+    const auto reader = open_volume({path(name), 2e-6, {}}, no_memory);
+    EXPECT_EQ(reader->outline.dims, volume.dims);
+    const GrayVolume layers = reader->read_layers(1, 2);
+    EXPECT_EQ(layers.box(), (Box{{0, 0, 1}, {7, 5, 2}}));
+    EXPECT_TRUE(std::equal(layers.values.begin(), layers.values.end(), volume.values.begin() + 35));
+  }
+}
+
+TEST_F(VolumeFile, CompressedNumbersAreUnpackedIfTheyFit) {
+  if (!has_ct_component()) GTEST_SKIP() << "built without the component ct";
+  // A stream of zlib that holds its bytes as they are, and their Adler checksum.
+  const std::string numbers{"abcdefghijkl"};
+  std::uint32_t low = 1;
+  std::uint32_t high = 0;
+  for (const char c : numbers) {
+    low = (low + static_cast<unsigned char>(c)) % 65521;
+    high = (high + low) % 65521;
+  }
+  std::string stream{"\x78\x01\x01\x0c\x00\xf3\xff", 7};
+  stream += numbers;
+  for (const std::uint32_t byte : {high >> 8U, high & 255U, low >> 8U, low & 255U}) {
+    stream.push_back(static_cast<char>(byte));
+  }
+  write_file(path("a.mha"),
+             "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+             "CompressedData = True\nCompressedDataSize = " +
+                 std::to_string(stream.size()) +
+                 "\nElementSpacing = 1 1 1\nDimSize = 3 2 2\nElementType = MET_UCHAR\n"
+                 "ElementDataFile = LOCAL\n" +
+                 stream);
+  const StoredVolume stored = read("a.mha");
+  EXPECT_EQ(stored.gray.dims, (VoxelDims{3, 2, 2}));
+  EXPECT_EQ(stored.gray.values.front(), 'a');
+  EXPECT_EQ(stored.gray.values.back(), 'l');
+  const auto reader = open_volume({path("a.mha"), 2e-6, {}}, 60);
+  EXPECT_EQ(reader->read_layers(1, 1).values.front(), 'g');
+  expect_error(
+      [&] {
+        (void)open_volume({path("a.mha"), 2e-6, {}}, 59);
+      },
+      {"a.mha", "compressed", "60 bytes", "--memory"});
 }
 
 TEST_F(VolumeFile, IntegersAreRoundedAndClamped) {
