@@ -5,6 +5,7 @@
 #include "reckon/avatar/triangle_bvh.hpp"
 #include "reckon/avatar/triangle_mesh.hpp"
 #include "reckon/shape/level_set.hpp"
+#include "reckon/shape/shape.hpp"
 
 namespace reckon {
 
@@ -25,8 +26,13 @@ inline constexpr double exact_band = 1.75;
 ///   neighbour of the closest one, so such values are at least the distance, and a little more
 ///   where many triangles are nearly as close: on spheres below 0.03 spacings more.
 ///
+/// For `ShapeStorage::band` only what a LevelSetBand keeps is computed: values are exact within
+/// band_half_width, farther outside they are that width, and deeper ones are distances to those
+/// closest points themselves: below 0.2 spacings too large.
+///
 /// `bvh` is that of `mesh`, which must be closed.
 [[nodiscard]] LevelSet transformed_distance(const TriangleMesh& mesh, const TriangleBvh& bvh,
-                                            double spacing);
+                                            double spacing,
+                                            ShapeStorage storage = ShapeStorage::full);
 
 }  // namespace reckon

@@ -42,11 +42,12 @@ SolidProperties grid_properties(const LevelSetView& grid) {
       double row_area = 0;
       for (std::int32_t i = 0; i < grid.dims[0]; ++i, ++v) {
         const double depth = -double{grid.values[v]} / grid.spacing;
-        const double weight = smoothed_step(depth);
+        if (depth <= -2) continue;  // of no weight
+        const double weight = depth >= 2 ? 1 : smoothed_step(depth);
         row += weight;
         row_x += weight * i;
         row_xx += weight * i * i;
-        row_area += smoothed_delta(depth);
+        if (depth < 2) row_area += smoothed_delta(depth);
       }
       const double y = j;
       const double z = k;

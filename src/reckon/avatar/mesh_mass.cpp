@@ -78,14 +78,30 @@ Mat3 axes_of(const Mat3& vectors, const Vec3& moments) {
 
 }  // namespace
 
+double surface_area(const TriangleMesh& mesh) {
+  double area = 0;
+  for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
+    const Vec3& a = mesh.vertices[triangle[0]];
+    area += 0.5 * norm(cross(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a));
+  }
+  return area;
+}
+
+double enclosed_volume(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return 0;
+  const Vec3 origin = mesh.vertices[mesh.triangles.front()[0]];
+  double sixfold = 0;
+  for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
+    sixfold += dot(cross(mesh.vertices[triangle[0]] - origin, mesh.vertices[triangle[1]] - origin),
+                   mesh.vertices[triangle[2]] - origin);
+  }
+  return sixfold / 6;
+}
+
 SolidProperties solid_properties(const TriangleMesh& mesh) {
   SolidProperties solid;
   if (mesh.triangles.empty()) return solid;
-  for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
-    const Vec3& a = mesh.vertices[triangle[0]];
-    solid.surface_area +=
-        0.5 * norm(cross(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a));
-  }
+  solid.surface_area = surface_area(mesh);
   // Second moments are taken about the centroid itself: shifting them there by the parallel axis
   // theorem would cancel digits for a mesh far from its origin.
   const Vec3 start = mesh.vertices[mesh.triangles.front()[0]];

@@ -18,6 +18,10 @@ struct SolidProperties {
 /// Exact for the polyhedron, up to rounding: the solid is the signed sum of the tetrahedra between
 /// a point and each triangle. Centroid and inertia of a mesh without volume are not finite.
 [[nodiscard]] SolidProperties solid_properties(const TriangleMesh& mesh);
+/// Only its volume; 0 without triangles [m^3].
+[[nodiscard]] double enclosed_volume(const TriangleMesh& mesh);
+/// Only its surface area [m^2].
+[[nodiscard]] double surface_area(const TriangleMesh& mesh);
 
 /// Where the body frame lies in a mesh's own frame: x_body = rotation * (x_mesh - origin_mesh).
 struct PrincipalFrame {

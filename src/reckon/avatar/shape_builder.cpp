@@ -162,7 +162,8 @@ Shape build_shape(const TriangleMesh& mesh, const ShapeResolution& resolution,
   shape.name = name;
   shape.mass = {solid.volume, frame.moments};
   shape.level_set = transformed_distance(
-      body_mesh, bvh, resolution.voxel_size.value_or(diameter / resolution.voxels_per_diameter));
+      body_mesh, bvh, resolution.voxel_size.value_or(diameter / resolution.voxels_per_diameter),
+      resolution.storage);
   const double grid_volume = grid_properties(shape.level_set).volume;
   if (!(std::abs(grid_volume / solid.volume - 1) <= largest_grid_error)) {
     refuse(name, "the grid is too coarse for this shape",

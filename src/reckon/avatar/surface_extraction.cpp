@@ -81,28 +81,40 @@ class Extractor {
       : grid_{grid},
         row_{static_cast<std::size_t>(grid.dims[0])},
         slab_{row_ * static_cast<std::size_t>(grid.dims[1])},
-        edge_vertex_(3 * grid.values.size(), none) {}
+        edge_vertex_{std::vector<std::uint32_t>(3 * slab_, none),
+                     std::vector<std::uint32_t>(3 * slab_, none)} {}
 
   TriangleMesh run() {
+    std::vector<unsigned char> inside_corners(row_);  // of the four on edges along y and z
     for (std::int32_t k = 0; k + 1 < grid_.dims[2]; ++k) {
       for (std::int32_t j = 0; j + 1 < grid_.dims[1]; ++j) {
-        for (std::int32_t i = 0; i + 1 < grid_.dims[0]; ++i) add_cell(i, j, k);
+        const float* const low = &grid_.values[index(0, j, k)];
+        const float* const high = low + slab_;
+        for (std::size_t i = 0; i < row_; ++i) {
+          inside_corners[i] = static_cast<unsigned char>((low[i] < 0) + (low[i + row_] < 0) +
+                                                         (high[i] < 0) + (high[i + row_] < 0));
+        }
+        for (std::size_t i = 0; i + 1 < row_; ++i) {
+          const int count = inside_corners[i] + inside_corners[i + 1];
+          if (count != 0 && count != 8) add_cell(static_cast<std::int32_t>(i), j, k);
+        }
       }
+      edge_vertex_[0].swap(edge_vertex_[1]);
+      std::fill(edge_vertex_[1].begin(), edge_vertex_[1].end(), none);
     }
     return std::move(mesh_);
   }
 
  private:
+  [[nodiscard]] std::size_t index(std::int32_t i, std::int32_t j, std::int32_t k) const {
+    return static_cast<std::size_t>(i) + row_ * static_cast<std::size_t>(j) +
+           slab_ * static_cast<std::size_t>(k);
+  }
+
   void add_cell(std::int32_t i, std::int32_t j, std::int32_t k) {
-    base_ = static_cast<std::size_t>(i) + row_ * static_cast<std::size_t>(j) +
-            slab_ * static_cast<std::size_t>(k);
+    base_ = index(i, j, k);
     std::array<double, 8> phi{};
-    unsigned inside_count = 0;
-    for (Corner c = 0; c < 8; ++c) {
-      phi[c] = grid_.values[vertex_index(c)];
-      inside_count += phi[c] < 0 ? 1U : 0U;
-    }
-    if (inside_count == 0 || inside_count == 8) return;
+    for (Corner c = 0; c < 8; ++c) phi[c] = grid_.values[vertex_index(c)];
     Successors next;
     next.fill(edge_names);
     for (const auto& corners : faces) link_face(phi, corners, next);
@@ -126,7 +138,9 @@ class Extractor {
     const auto corner = static_cast<Corner>(edge / 3);
     const std::size_t axis = edge % 3;
     const std::size_t from = vertex_index(corner);
-    std::uint32_t& vertex = edge_vertex_[3 * from + axis];
+    std::uint32_t& vertex =
+        edge_vertex_[corner >> 2U]
+                    [3 * (from - slab_ * (static_cast<std::size_t>(k) + (corner >> 2U))) + axis];
     if (vertex == none) {
       const double a = grid_.values[from];
       const double b = grid_.values[vertex_index(corner | 1U << axis)];
@@ -174,8 +188,9 @@ class Extractor {
   LevelSetView grid_;
   std::size_t row_;
   std::size_t slab_;
-  std::size_t base_{0};                     // lowest vertex of the current cell
-  std::vector<std::uint32_t> edge_vertex_;  // 3 * grid vertex + axis -> mesh vertex
+  std::size_t base_{0};  // lowest vertex of the current cell
+  // Of the lower and the upper layer: 3 * grid vertex in its layer + axis -> mesh vertex.
+  std::array<std::vector<std::uint32_t>, 2> edge_vertex_;
   std::vector<std::size_t> loop_;
   TriangleMesh mesh_;
 };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -26,7 +28,7 @@ constexpr Stages for_few_points{Stage{24, 24, 1.7}, Stage{48, 12, 1.4}};
 constexpr Stages for_many_points{Stage{10, 10, 1.7}, Stage{32, 4, 1.4}};
 constexpr std::size_t few_points = 2000;
 constexpr int rounds_per_look_around = 4;  // after which neighbours are sought anew
-constexpr double neighbour_reach = 2;      // [mean spacings]
+constexpr double neighbour_reach = 1.7;    // [mean spacings]
 constexpr double opposite_cosine = -0.5;
 
 double triangle_area(const TriangleMesh& mesh, const TriangleMesh::Triangle& t) {
@@ -163,8 +165,19 @@ class NearestPoint {
   std::vector<std::uint32_t> members_;  // points by cell
 };
 
+using Lanes [[gnu::vector_size(16)]] = float;
+using Answers [[gnu::vector_size(16)]] = std::int32_t;
+constexpr std::size_t lanes = 4;
+
+bool any(const Answers& answers) {
+  std::array<std::uint64_t, 2> halves{};
+  std::memcpy(halves.data(), &answers, sizeof answers);
+  return (halves[0] | halves[1]) != 0;
+}
+
 /// Finds the nearest of some points for places that are near each other, by walking from
-/// neighbour to neighbour.
+/// neighbour to neighbour. In single precision, which matters only to places half way between two
+/// points.
 class NearestWalk {
  public:
   /// `area`: of the surface.
@@ -172,18 +185,40 @@ class NearestWalk {
     reach_ = neighbour_reach * std::sqrt(area / static_cast<double>(points.size()));
     complete_.assign(points.size(), true);
     first_.push_back(0);
+    std::vector<Neighbour> neighbours;
     for (std::uint32_t n = 0; n < points.size(); ++n) {
-      const auto begin = static_cast<std::ptrdiff_t>(neighbours_.size());
+      neighbours.clear();
       cells_.for_each_within(points.position[n], reach_, [&](std::uint32_t m, double d2) {
         if (m == n) return;
         if (facing(m, points.normal[n])) {
-          neighbours_.push_back({d2, m});
+          neighbours.push_back({d2, m});
         } else {
           complete_[n] = false;
         }
       });
-      std::sort(neighbours_.begin() + begin, neighbours_.end());
-      first_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
+      std::sort(neighbours.begin(), neighbours.end());
+      for (std::size_t i = 0; i < neighbours.size(); ++i) {
+        if (i % lanes == 0) {
+          blocks_.emplace_back();
+          blocks_.back().nearest = static_cast<float>(neighbours[i].squared_distance);
+        }
+        blocks_.back().point[i % lanes] = neighbours[i].point;
+      }
+      first_.push_back(static_cast<std::uint32_t>(blocks_.size()));
+    }
+    refresh();
+  }
+
+  /// To be called when points have moved. Who are neighbours stays as it was.
+  void refresh() {
+    constexpr float far_away = 1e18F;
+    for (Block& block : blocks_) {
+      for (std::size_t i = 0; i < lanes; ++i) {
+        const std::uint32_t n = block.point[i];
+        block.x[i] = n == nobody ? far_away : static_cast<float>(points_.position[n].x);
+        block.y[i] = n == nobody ? far_away : static_cast<float>(points_.position[n].y);
+        block.z[i] = n == nobody ? far_away : static_cast<float>(points_.position[n].z);
+      }
     }
   }
 
@@ -200,25 +235,35 @@ class NearestWalk {
   /// A point that none of its neighbours is nearer than, as they were when they were sought.
   [[nodiscard]] std::uint32_t walk(const Vec3& position, const Vec3& normal,
                                    std::uint32_t start) const {
+    const auto x = static_cast<float>(position.x);
+    const auto y = static_cast<float>(position.y);
+    const auto z = static_cast<float>(position.z);
     std::uint32_t here = start;
-    double d2 = squared_norm(points_.position[here] - position);
+    auto d2 = static_cast<float>(squared_norm(points_.position[here] - position));
     for (bool moved = true; moved;) {
       moved = false;
-      for (std::uint32_t i = first_[here]; i < first_[here + 1]; ++i) {
-        const Neighbour& next = neighbours_[i];
-        if (next.squared_distance > 4 * d2) break;  // it and all that follow are farther than here
-        const double next_d2 = squared_norm(points_.position[next.point] - position);
-        if (!(next_d2 < d2) || !facing(next.point, normal)) continue;
-        here = next.point;
-        d2 = next_d2;
-        moved = true;
-        break;
+      for (std::uint32_t b = first_[here]; b < first_[here + 1] && !moved; ++b) {
+        const Block& block = blocks_[b];
+        if (block.nearest > 4 * d2) break;  // all that follow are farther than here
+        const Lanes dx = block.x - x;
+        const Lanes dy = block.y - y;
+        const Lanes dz = block.z - z;
+        const Lanes next = dx * dx + dy * dy + dz * dz;
+        if (!any(next < d2)) continue;
+        for (std::size_t i = 0; i < lanes; ++i) {
+          if (!(next[i] < d2) || !facing(block.point[i], normal)) continue;
+          here = block.point[i];
+          d2 = next[i];
+          moved = true;
+        }
       }
     }
     return here;
   }
 
  private:
+  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+
   struct Neighbour {
     double squared_distance;
     std::uint32_t point;
@@ -228,6 +273,12 @@ class NearestWalk {
                                                         : point < other.point;
     }
   };
+  /// Some neighbours of a point, by distance.
+  struct Block {
+    Lanes x{}, y{}, z{};
+    std::array<std::uint32_t, lanes> point{nobody, nobody, nobody, nobody};
+    float nearest{0};  // squared distance of the first when they were sought
+  };
 
   [[nodiscard]] bool facing(std::uint32_t n, const Vec3& normal) const {
     return dot(points_.normal[n], normal) >= opposite_cosine;
@@ -236,9 +287,9 @@ class NearestWalk {
   const OrientedPoints& points_;
   NearestPoint cells_;
   double reach_;
-  std::vector<bool> complete_;         // whether a point's neighbours are all that are within reach
-  std::vector<std::uint32_t> first_;   // of each point's neighbours
-  std::vector<Neighbour> neighbours_;  // of each point, by distance
+  std::vector<bool> complete_;        // whether a point's neighbours are all that are within reach
+  std::vector<std::uint32_t> first_;  // of each point's blocks
+  std::vector<Block> blocks_;
 };
 
 }  // namespace
@@ -283,7 +334,11 @@ void relax(OrientedPoints& points, const OrientedPoints& samples, double area, c
     std::fill(sum.begin(), sum.end(), Vec3{});
     std::fill(normal_sum.begin(), normal_sum.end(), Vec3{});
     std::fill(share.begin(), share.end(), 0U);
-    if (round % rounds_per_look_around == 0) nearest.emplace(points, area);
+    if (round % rounds_per_look_around == 0) {
+      nearest.emplace(points, area);
+    } else {
+      nearest->refresh();
+    }
     for (std::size_t s = 0; s < samples.size(); ++s) {
       // Samples follow a curve: at first the last one's owner is a good guess.
       owner[s] = round == 0 ? nearest->find(samples.position[s], samples.normal[s],

@@ -123,10 +123,13 @@ BoundingBox bounding_box(const TriangleMesh& mesh) {
 
 ClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b,
                                        const Vec3& c) {
+  constexpr double slender = 1e-12;  // squared sine of an angle whose places round badly
+  constexpr double near_side = 1e-3;
   const Vec3 ab = b - a;
   const Vec3 ac = c - a;
   const Vec3 normal = cross(ab, ac);
   const double scale = squared_norm(normal);
+  std::array<bool, 3> beyond{true, true, true};  // which sides may be closest
   if (scale > 0) {
     const Vec3 ap = point - a;
     const double v = dot(cross(ap, ac), normal) / scale;
@@ -137,13 +140,18 @@ ClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const V
       closest.squared_distance = squared_norm(point - closest.point);
       return closest;
     }
+    if (scale > slender * squared_norm(ab) * squared_norm(ac)) {
+      beyond = {!(w > near_side), !(1 - v - w > near_side), !(v > near_side)};
+    }
   }
-  // The projection falls outside, so the closest point is on the rim.
-  ClosestPoint best = closest_on_side(point, a, b, 0);
-  const ClosestPoint second = closest_on_side(point, b, c, 1);
-  if (second.squared_distance < best.squared_distance) best = second;
-  const ClosestPoint third = closest_on_side(point, c, a, 2);
-  if (third.squared_distance < best.squared_distance) best = third;
+  // The projection falls outside, so the closest point is on a side that it lies beyond.
+  const std::array<const Vec3*, 4> rim{&a, &b, &c, &a};
+  ClosestPoint best;
+  for (std::uint8_t side = 0; side < 3; ++side) {
+    if (!beyond[side]) continue;
+    const ClosestPoint found = closest_on_side(point, *rim[side], *rim[side + 1U], side);
+    if (found.squared_distance < best.squared_distance) best = found;
+  }
   return best;
 }
 

@@ -43,6 +43,7 @@ double own_solid_gray(const SegmentedScan& scan, std::uint32_t label, const Labe
   double sum = 0;
   std::uint64_t count = 0;
   const auto inside = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+    if (labels.values[labels.index(i, j, k)] != label) return false;
     for (const int step : {-inner_layers, inner_layers}) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         std::array<std::int32_t, 3> p{i, j, k};
@@ -51,7 +52,7 @@ double own_solid_gray(const SegmentedScan& scan, std::uint32_t label, const Labe
         if (labels.values[labels.index(p[0], p[1], p[2])] != label) return false;
       }
     }
-    return labels.values[labels.index(i, j, k)] == label;
+    return true;
   };
   for (std::int32_t k = grain.low[2]; k <= grain.high[2]; ++k) {
     for (std::int32_t j = grain.low[1]; j <= grain.high[1]; ++j) {
@@ -126,6 +127,21 @@ void to_level_set(GrayVolume& share) {
   for (float& value : share.values) value = static_cast<float>(outwardness(value));
 }
 
+/// Keeps the surface off the grid's outermost vertices.
+void close_at_edges(LevelSet& grid) {
+  const auto close = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+    float& value = grid.values[grid.index(i, j, k)];
+    value = std::max(value, 0.25F);
+  };
+  for (std::int32_t k = 0; k < grid.dims[2]; ++k) {
+    for (std::int32_t j = 0; j < grid.dims[1]; ++j) {
+      const bool whole_row = j == 0 || k == 0 || j + 1 == grid.dims[1] || k + 1 == grid.dims[2];
+      const std::int32_t step = whole_row ? 1 : grid.dims[0] - 1;
+      for (std::int32_t i = 0; i < grid.dims[0]; i += step) close(i, j, k);
+    }
+  }
+}
+
 /// The level set of the grain, its surface against void moved outwards by `offset`.
 LevelSet level_set_of(const Piece& piece, double offset) {
   LevelSet grid;
@@ -135,24 +151,17 @@ LevelSet level_set_of(const Piece& piece, double offset) {
     grid.origin_body[axis] = (piece.low[static_cast<std::size_t>(axis)] + 0.5) * piece.share.voxel;
   }
   grid.values.resize(piece.share.values.size());
-  std::size_t at = 0;
-  for (std::int32_t k = 0; k < grid.dims[2]; ++k) {
-    for (std::int32_t j = 0; j < grid.dims[1]; ++j) {
-      for (std::int32_t i = 0; i < grid.dims[0]; ++i, ++at) {
-        const bool outermost = i == 0 || j == 0 || k == 0 || i + 1 == grid.dims[0] ||
-                               j + 1 == grid.dims[1] || k + 1 == grid.dims[2];
-        const double value =
-            std::max(piece.share.values[at] - offset, double{piece.border.values[at]});
-        grid.values[at] = static_cast<float>(outermost ? std::max(value, 0.25) : value);
-      }
-    }
+  const auto moved = static_cast<float>(offset);
+  for (std::size_t v = 0; v < grid.values.size(); ++v) {
+    grid.values[v] = std::max(piece.share.values[v] - moved, piece.border.values[v]);
   }
+  close_at_edges(grid);
   return grid;
 }
 
 }  // namespace
 
-TriangleMesh largest_component(const TriangleMesh& mesh) {
+TriangleMesh largest_component(TriangleMesh mesh) {
   std::vector<std::uint32_t> parent(mesh.vertices.size());
   std::iota(parent.begin(), parent.end(), 0U);
   const auto root = [&](std::uint32_t v) {
@@ -169,8 +178,13 @@ TriangleMesh largest_component(const TriangleMesh& mesh) {
       parent[std::max(a, b)] = std::min(a, b);
     }
   }
-  std::vector<double> volume(mesh.vertices.size(), 0);
   if (mesh.triangles.empty()) return {};
+  const std::uint32_t any = root(mesh.triangles.front()[0]);
+  const bool whole = std::all_of(parent.begin(), parent.end(), [&](const std::uint32_t& v) {
+    return root(static_cast<std::uint32_t>(&v - parent.data())) == any;
+  });
+  if (whole) return mesh;
+  std::vector<double> volume(mesh.vertices.size(), 0);
   const Vec3 origin = mesh.vertices[mesh.triangles.front()[0]];
   for (const auto& t : mesh.triangles) {
     const Vec3 a = mesh.vertices[t[0]] - origin;
@@ -208,7 +222,7 @@ GrainSurface extract_grain(const SegmentedScan& scan, std::uint32_t label,
   const auto error_at = [&](double offset) {
     surface.level = 1 / (1 + portable::exp(offset));
     surface.mesh_world = largest_component(extract_surface(level_set_of(piece, offset)));
-    return solid_properties(surface.mesh_world).volume / surface.gray_volume - 1;
+    return enclosed_volume(surface.mesh_world) / surface.gray_volume - 1;
   };
   // Secants. A unit of offset moves the surface by about half a voxel, which tells the first step.
   const double diameter = portable::cbrt(6 * piece.gray_volume / std::numbers::pi);  // [voxels]

@@ -50,6 +50,6 @@ struct GrainSurface {
                                          const LabelledGrain& grain, double smoothing);
 
 /// The part of a mesh that hangs together and encloses the most.
-[[nodiscard]] TriangleMesh largest_component(const TriangleMesh& mesh);
+[[nodiscard]] TriangleMesh largest_component(TriangleMesh mesh);
 
 }  // namespace reckon

@@ -76,8 +76,7 @@ AvatarQuality judge(const Shape& shape, const GrainSurface& surface, const Trian
     squares += phi * phi;
   }
   quality.surface_distance = std::sqrt(squares / static_cast<double>(body_mesh.vertices.size()));
-  quality.area_kept = solid_properties(extract_surface(grid)).surface_area /
-                      solid_properties(body_mesh).surface_area;
+  quality.area_kept = surface_area(extract_surface(grid)) / surface_area(body_mesh);
   return quality;
 }
 
