@@ -17,7 +17,7 @@ namespace reckon {
 namespace {
 
 // 2 added departed grains, 3 driven walls and stages, 4 the membrane, 5 the cell and bonds.
-const Hdf5Kind kind{"checkpoint", 5};
+const Hdf5Kind kind{"checkpoint", 6};
 
 /// How the parts of the state lie in columns. The same walk fills columns from the state, and the
 /// state from columns: `Columns` offers number, vector, quaternion, id and flag.
@@ -56,6 +56,7 @@ void walk_spring(Columns& columns, Spring& spring) {
   columns.flag("master_is_b", spring.master_is_b);
   columns.vector("shear_force", "N", spring.shear_force);
   columns.vector("normal", "1", spring.normal);
+  if (columns.has_since(6)) columns.number("dashpot_push", "N", spring.dashpot_push);
 }
 
 template <class Columns, class Wall>
@@ -122,6 +123,7 @@ void walk_membrane_spring(Columns& columns, Spring& spring) {
   columns.id("grain", spring.grain);
   columns.vector("shear_force", "N", spring.shear_force);
   columns.vector("normal", "1", spring.normal);
+  if (columns.has_since(6)) columns.number("dashpot_push", "N", spring.dashpot_push);
 }
 
 /// Appends one row per walk to the columns of a table, which the first walk makes.
