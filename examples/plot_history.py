@@ -5,13 +5,8 @@
 usage: plot_history.py RUN PICTURE X Y [--stages 2,3] [--log-x] [--labels "x" "y"]
 """
 import argparse
-import csv
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+import curves
 
 
 def main() -> None:
@@ -24,21 +19,18 @@ def main() -> None:
     parser.add_argument("--log-x", action="store_true")
     parser.add_argument("--labels", nargs=2)
     arguments = parser.parse_args()
-    with open(Path(arguments.run) / "history.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    stages = arguments.stages.split(",") if arguments.stages else sorted({row["stage"] for row in rows})
-    figure, axes = plt.subplots(figsize=(6, 4))
-    for stage in stages:
-        points = [(float(row[arguments.x]), float(row[arguments.y])) for row in rows if row["stage"] == stage]
-        axes.plot(*zip(*points), label=f"stage {stage}")
+    columns = curves.history(arguments.run)
+    shown = arguments.stages.split(",") if arguments.stages else sorted(set(columns["stage"]))
+    figure, axes = curves.plt.subplots(figsize=(6, 4))
+    for number in map(int, shown):
+        rows = curves.stage(columns, number)
+        axes.plot(rows[arguments.x], rows[arguments.y], label=f"stage {number}")
     if arguments.log_x:
         axes.set_xscale("log")
     axes.set_xlabel(arguments.labels[0] if arguments.labels else arguments.x)
     axes.set_ylabel(arguments.labels[1] if arguments.labels else arguments.y)
     axes.legend(frameon=False)
-    axes.grid(alpha=0.3)
-    figure.tight_layout()
-    figure.savefig(arguments.picture, dpi=150)
+    curves.save(figure, arguments.picture)
 
 
 if __name__ == "__main__":

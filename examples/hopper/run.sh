@@ -5,6 +5,4 @@
 #   examples/hopper/run.sh [RECKON]
 # Makes the grains, runs the test, plots it where Python has matplotlib: below build/examples/hopper.
 . "$(dirname "$0")/../run_recipe.sh" "$@"
-if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
-  /usr/bin/python3 examples/hopper/plot.py "$work/run" "$work/hopper.png"
-fi
+plot hopper/plot.py "$work/run" "$work/hopper.png"

@@ -5,7 +5,5 @@
 #   examples/isotropic/run.sh [RECKON]
 # Makes the grains, runs the test, plots it where Python has matplotlib: below build/examples/isotropic.
 . "$(dirname "$0")/../run_recipe.sh" "$@"
-if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
-  /usr/bin/python3 examples/plot_history.py "$work/run" "$work/isotropic.png" mean_stress_Pa void_ratio \
-    --stages 2,3,4,5,6 --log-x --labels "mean stress [Pa]" "void ratio"
-fi
+plot plot_history.py "$work/run" "$work/isotropic.png" mean_stress_Pa void_ratio \
+  --stages 2,3,4,5,6 --log-x --labels "mean stress [Pa]" "void ratio"

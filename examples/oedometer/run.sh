@@ -5,7 +5,5 @@
 #   examples/oedometer/run.sh [RECKON]
 # Makes the grains, runs the test, plots it where Python has matplotlib: below build/examples/oedometer.
 . "$(dirname "$0")/../run_recipe.sh" "$@"
-if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
-  /usr/bin/python3 examples/plot_history.py "$work/run" "$work/oedometer.png" stress_zz_Pa void_ratio \
-    --stages 2,3 --log-x --labels "axial stress [Pa]" "void ratio"
-fi
+plot plot_history.py "$work/run" "$work/oedometer.png" stress_zz_Pa void_ratio \
+  --stages 2,3 --log-x --labels "axial stress [Pa]" "void ratio"

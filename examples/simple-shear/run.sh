@@ -5,6 +5,4 @@
 #   examples/simple-shear/run.sh [RECKON]
 # Makes the grains, runs the test, plots it where Python has matplotlib: below build/examples/simple-shear.
 . "$(dirname "$0")/../run_recipe.sh" "$@"
-if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
-  /usr/bin/python3 examples/simple-shear/plot.py "$work/simple-shear.png" "$work/run"
-fi
+plot simple-shear/plot.py "$work/simple-shear.png" "$work/run"

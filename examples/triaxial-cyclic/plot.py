@@ -4,39 +4,34 @@
 
 usage: plot.py RUN PICTURE
 """
-import csv
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+import curves
 
 
 def main() -> None:
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    with open(Path(sys.argv[1]) / "history.csv", newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if int(row["stage"]) > 2]
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4))
-    before = {"strain_z": 0.0, "volumetric_strain": 0.0}
-    for stage in sorted({int(row["stage"]) for row in rows}):
-        mine = [row for row in rows if int(row["stage"]) == stage]
-        strain = [100 * (before["strain_z"] + float(row["strain_z"])) for row in mine]
-        volume = [-100 * (before["volumetric_strain"] + float(row["volumetric_strain"])) for row in mine]
-        color = "tab:red" if stage % 2 == 1 else "tab:blue"
-        left.plot(strain, [1e-3 * float(row["deviator_Pa"]) for row in mine], color=color)
-        right.plot(strain, volume, color=color)
-        for name in before:
-            before[name] += float(mine[-1][name])
+    columns = curves.history(sys.argv[1])
+    figure, (left, right) = curves.plt.subplots(1, 2, figsize=(9, 4))
+    strain = volume = 0.0  # when a stage begins
+    for number in sorted(set(columns["stage"])):
+        if number <= 2:
+            continue
+        rows = curves.stage(columns, number)
+        color = "tab:red" if number % 2 == 1 else "tab:blue"
+        axial = 100 * (strain + rows["strain_z"])
+        left.plot(axial, 1e-3 * rows["deviator_Pa"], color=color)
+        right.plot(axial, -100 * (volume + rows["volumetric_strain"]), color=color)
+        strain += rows["strain_z"][-1]
+        volume += rows["volumetric_strain"][-1]
     left.set_ylabel("deviator q [kPa]")
     right.set_ylabel("dilation [%]")
     for axes in (left, right):
         axes.set_xlabel("axial strain [%]")
-        axes.grid(alpha=0.3)
-    figure.tight_layout()
-    figure.savefig(sys.argv[2], dpi=150)
+    curves.save(figure, sys.argv[2])
 
 
 if __name__ == "__main__":

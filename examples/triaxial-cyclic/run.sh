@@ -5,6 +5,4 @@
 #   examples/triaxial-cyclic/run.sh [RECKON]
 # Makes the grains, runs the test, plots it where Python has matplotlib: below build/examples/triaxial-cyclic.
 . "$(dirname "$0")/../run_recipe.sh" "$@"
-if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
-  /usr/bin/python3 examples/triaxial-cyclic/plot.py "$work/run" "$work/triaxial-cyclic.png"
-fi
+plot triaxial-cyclic/plot.py "$work/run" "$work/triaxial-cyclic.png"

@@ -5,7 +5,5 @@
 #   examples/triaxial-undrained/run.sh [RECKON]
 # Makes the grains, runs the test, plots it where Python has matplotlib: below build/examples/triaxial-undrained.
 . "$(dirname "$0")/../run_recipe.sh" "$@"
-if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
-  /usr/bin/python3 examples/plot_history.py "$work/run" "$work/triaxial-undrained.png" mean_stress_Pa deviator_Pa \
-    --stages 3 --labels "mean effective stress p [Pa]" "deviator q [Pa]"
-fi
+plot plot_history.py "$work/run" "$work/triaxial-undrained.png" mean_stress_Pa deviator_Pa \
+  --stages 3 --labels "mean effective stress p [Pa]" "deviator q [Pa]"

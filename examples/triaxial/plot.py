@@ -11,28 +11,22 @@ import math
 import sys
 from pathlib import Path
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+import curves
 
 COLORS = {50: "tab:blue", 100: "tab:orange", 200: "tab:green"}
 
 
-def shear_stage(run: Path) -> tuple[list[float], list[float], list[float]]:
+def shear_stage(run: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Axial strain [%], mobilised friction angle [deg], dilation [%] of the last stage."""
-    with open(run / "history.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    rows = [row for row in rows if row["stage"] == rows[-1]["stage"]]
+    rows = curves.last_stage(run)
 
-    def engineering(logarithmic: str) -> float:
-        return 100 * (1 - math.exp(-float(logarithmic)))
+    def engineering(logarithmic: np.ndarray) -> np.ndarray:
+        return 100 * (1 - np.exp(-logarithmic))
 
-    return (
-        [engineering(row["strain_z"]) for row in rows],
-        [float(row["friction_angle_deg"]) for row in rows],
-        [-engineering(row["volumetric_strain"]) for row in rows],
-    )
+    return engineering(rows["strain_z"]), rows["friction_angle_deg"], -engineering(rows["volumetric_strain"])
 
 
 def laboratory(data: Path, number: int) -> tuple[int, list[float], list[float], list[float]]:
@@ -50,7 +44,7 @@ def main() -> None:
     root = Path(__file__).resolve().parents[2]
     data = Path(sys.argv[3]) if len(sys.argv) == 4 else root / "../shared/data/dobrany-sand"
     measured = (data / "derived_CID-REC-1.csv").exists()
-    figure, axes = plt.subplots(2, 2 if measured else 1, sharex=True, sharey="row", squeeze=False, figsize=(9, 6.5))
+    figure, axes = curves.plt.subplots(2, 2 if measured else 1, sharex=True, sharey="row", squeeze=False, figsize=(9, 6.5))
     for kind, style in (("sand", "-"), ("spheres", "--")):
         for kpa, color in COLORS.items():
             run = work / f"{kind}-{kpa}"
@@ -70,16 +64,13 @@ def main() -> None:
     axes[0][0].set_ylabel("mobilised friction angle [deg]")
     axes[1][0].set_ylabel("dilation [%]")
     axes[0][0].set_ylim(0, 60)
-    for row in axes:
-        for each in row:
-            each.grid(alpha=0.3)
-            each.set_xlim(0, 16)
+    for each in axes.flat:
+        each.set_xlim(0, 16)
     for each in axes[0]:
         each.legend(frameon=False, fontsize=7)
     for each in axes[1]:
         each.set_xlabel("axial strain [%]")
-    figure.tight_layout()
-    figure.savefig(sys.argv[2], dpi=150)
+    curves.save(figure, sys.argv[2])
 
 
 if __name__ == "__main__":

@@ -56,8 +56,9 @@ struct MembraneNode {
 struct MembraneSpring {
   std::uint32_t node{0};
   GrainId grain;
-  Vec3 shear_force;  ///< on the node [N]
-  Vec3 normal;       ///< unit, out of the grain
+  Vec3 shear_force;        ///< on the node [N]
+  Vec3 normal;             ///< unit, out of the grain
+  double dashpot_push{0};  ///< along the normal [N]
 
   friend bool operator==(const MembraneSpring&, const MembraneSpring&) = default;
 };

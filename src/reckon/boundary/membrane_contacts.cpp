@@ -190,14 +190,18 @@ void MembraneContacts::evaluate_candidate(std::size_t c, const Membrane& membran
     if (!(steepness > 0)) continue;  // a flat spot of the distance has no normal
     const Vec3 normal = touch.gradient_world / steepness;
     Vec3 spring;
+    double dashpot_before = 0;
     for (const MembraneSpring& old : membrane.springs_of(touch.node)) {
-      if (old.grain == grain.id) spring = rotate_between(old.shear_force, old.normal, normal);
+      if (old.grain != grain.id) continue;
+      spring = rotate_between(old.shear_force, old.normal, normal);
+      dashpot_before = old.dashpot_push;
     }
     const Vec3 velocity = membrane.nodes()[touch.node].velocity - grain.velocity -
                           cross(grain.angular_velocity_world, touch.lever_world);
     const NodeResponse node =
         membrane.setup().contact.respond(context, touch, normal, velocity, spring);
-    scratch.touches.push_back({{touch.node, grain.id, node.shear_force, normal}, node.force});
+    scratch.touches.push_back(
+        {{touch.node, grain.id, node.shear_force, normal, node.dashpot_push}, node.force});
     sum.force -= node.force;
     sum.moment -= cross(touch.lever_world, node.force);
     sum.first_moment += outer(-node.force, touch.lever_world);
@@ -206,7 +210,7 @@ void MembraneContacts::evaluate_candidate(std::size_t c, const Membrane& membran
     sum.deepest = std::max(sum.deepest, -touch.phi);
     sum.elastic += node.elastic;
     sum.friction += node.friction;
-    sum.dashpot += node.dashpot;
+    sum.dashpot += dashpot_loss(dashpot_before, node, touch, dot(normal, velocity), time_step);
     ++sum.touching;
   }
 }

@@ -43,10 +43,10 @@ struct AreaLaw {
         slide(spring, velocity, normal, context.time_step, stiffness, context.friction * push);
     return {.force = push * normal + shear.force,
             .shear_force = shear.force,
+            .dashpot_push = push - elastic_push,
             .elastic = 0.5 * normal_stiffness * touch.area * touch.phi * touch.phi +
                        stored_shear_energy(shear.force, touch.area),
-            .friction = shear.lost,
-            .dashpot = (elastic_push - push) * approach * context.time_step};
+            .friction = shear.lost};
   }
 
   [[nodiscard]] double pair_scale(const PairContext& /*context*/) const { return 1.0; }

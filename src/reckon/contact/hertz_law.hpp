@@ -49,9 +49,9 @@ struct HertzLaw {
     const double in_spring = stiffness > 0 ? squared_norm(shear.force) / (2 * stiffness) : 0;
     return {.force = push * normal + shear.force,
             .shear_force = shear.force,
+            .dashpot_push = push - elastic_push,
             .elastic = 0.4 * elastic_push * overlap + in_spring,
-            .friction = shear.lost,
-            .dashpot = (elastic_push - push) * approach * context.time_step};
+            .friction = shear.lost};
   }
 
   [[nodiscard]] double pair_scale(const PairContext& /*context*/) const { return 1.0; }

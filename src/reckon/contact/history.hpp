@@ -18,6 +18,7 @@ struct NodeSpring {
   bool master_is_b{false};  ///< in a pair of grains: which of the two the node belongs to
   Vec3 shear_force;         ///< on the master, world frame [N]
   Vec3 normal;              ///< unit, out of the slave, world frame
+  double dashpot_push{0};   ///< along the normal [N]
 
   friend bool operator==(const NodeSpring&, const NodeSpring&) = default;
 };

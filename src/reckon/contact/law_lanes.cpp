@@ -40,7 +40,8 @@ __attribute__((flatten)) void answer(const Law& given, double friction, double t
       Vec3 turned = rotate_between(b.old_spring[n], b.old_normal[n], normal);
       const bool is_old = squared_norm(b.old_normal[n]) > 0;  // else zeros, which may have signs
       const Vec3 spring{is_old ? turned.x : 0, is_old ? turned.y : 0, is_old ? turned.z : 0};
-      NodeResponse node = law.respond(context, touch, normal, b.velocity[n], spring);
+      const Vec3 velocity = b.velocity[n];
+      NodeResponse node = law.respond(context, touch, normal, velocity, spring);
       b.steepness[n] = steepness;
       b.normal.set(n, normal);
       b.force.set(n, node.force);
@@ -49,7 +50,9 @@ __attribute__((flatten)) void answer(const Law& given, double friction, double t
       b.moment_slave.set(n, cross(b.lever_slave[n], node.force));
       b.elastic[n] = node.elastic;
       b.friction[n] = node.friction;
-      b.dashpot[n] = node.dashpot;
+      b.dashpot_push[n] = node.dashpot_push;
+      b.dashpot[n] =
+          dashpot_loss(b.old_dashpot_push[n], node, touch, dot(normal, velocity), time_step);
     }
   }
 }

@@ -32,10 +32,10 @@ struct LinearLaw {
                                 context.friction * std::abs(push));
     return {.force = push * normal + shear.force,
             .shear_force = shear.force,
+            .dashpot_push = -gamma * approach,
             .elastic = 0.5 * normal_stiffness * touch.phi * touch.phi +
                        stored_shear_energy(shear.force, touch.area),
-            .friction = shear.lost,
-            .dashpot = gamma * approach * approach * context.time_step};
+            .friction = shear.lost};
   }
 
   [[nodiscard]] double pair_scale(const PairContext& context) const {

@@ -97,8 +97,10 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
     const Vec3 velocity = velocity_at(master, touch.lever_world, slave, lever_slave);
     while (old != old_springs.end() && old->node < touch.node) let_go(*old++);
     Vec3 spring;
+    double dashpot_before = 0;
     if (old != old_springs.end() && old->node == touch.node) {
       spring = rotate_between(old->shear_force, old->normal, normal);
+      dashpot_before = old->dashpot_push;
       ++old;
     }
     const NodeResponse node = law.respond(context, touch, normal, velocity, spring);
@@ -109,8 +111,9 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
     sum.deepest = std::max(sum.deepest, -touch.phi);
     sum.elastic += node.elastic;
     sum.friction += node.friction;
-    sum.dashpot += node.dashpot;
-    new_springs.push_back({touch.node, master_is_b, node.shear_force, normal});
+    sum.dashpot +=
+        dashpot_loss(dashpot_before, node, touch, dot(normal, velocity), context.time_step);
+    new_springs.push_back({touch.node, master_is_b, node.shear_force, normal, node.dashpot_push});
     ++sum.touching;
   }
   while (old != old_springs.end()) let_go(*old++);

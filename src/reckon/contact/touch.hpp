@@ -30,12 +30,24 @@ struct PairContext {
 
 /// What a law answers for one node.
 struct NodeResponse {
-  Vec3 force;          ///< on the master, world frame [N]
-  Vec3 shear_force;    ///< its frictional part: the new spring [N]
-  double elastic{0};   ///< energy stored in the node's springs [J]
-  double friction{0};  ///< energy lost to sliding in this step [J]
-  double dashpot{0};   ///< energy lost to the dashpot in this step [J]
+  Vec3 force;              ///< on the master, world frame [N]
+  Vec3 shear_force;        ///< its frictional part: the new spring [N]
+  double dashpot_push{0};  ///< the dashpot's part along the normal [N]
+  double elastic{0};       ///< energy stored in the node's springs [J]
+  double friction{0};      ///< energy lost to sliding in this step [J]
 };
+
+/// What the dashpot of a node takes in while the node goes from the step before to this one [J]:
+/// the mean of its pushes at both times the way between them, which over a whole contact is its
+/// push times the mean of the velocities before and after each step. `before` is last step's push,
+/// zero where the node did not touch. A node about to leave does not come by again, so that the
+/// second half of its last push is counted here.
+[[nodiscard]] inline double dashpot_loss(double before, const NodeResponse& now, const Touch& touch,
+                                         double approach, double time_step) {
+  const double way = approach * time_step;
+  const double share = touch.phi + way < 0 ? 0.5 : 1.0;
+  return -(0.5 * before + share * now.dashpot_push) * way;
+}
 
 /// A contact law: a small value type that turns one touching node into forces.
 /// - `respond`: the node's forces. `normal` is the unit normal out of the slave; `spring` is last

@@ -32,6 +32,7 @@ std::size_t TouchBatch::add(PairContext context, const Vec3& master_center,
     const bool is_old = old != old_springs.end() && old->node == touch.node;
     block.old_spring.set(lane, is_old ? old->shear_force : Vec3{});
     block.old_normal.set(lane, is_old ? old->normal : Vec3{});
+    block.old_dashpot_push[lane] = is_old ? old->dashpot_push : 0;
     block.node[lane] = touch.node;
     block.touching[lane] = context.touching;
     ++nodes_;

@@ -35,11 +35,12 @@ struct alignas(64) TouchLanes {
   Numbers phi, area, effective_mass, total_area, total_volume;
   Vectors gradient, velocity, lever_master, lever_slave;
   Vectors old_spring, old_normal;  // zero where the node did not touch before
+  Numbers old_dashpot_push;        // likewise
 
   // Answered.
   Numbers steepness;  // of the distance
   Vectors normal, force, shear_force, moment_master, moment_slave;
-  Numbers elastic, friction, dashpot;
+  Numbers dashpot_push, elastic, friction, dashpot;
 
   std::array<NodeIndex, width> node;
   std::array<std::uint32_t, width> touching;  // nodes of the pair
@@ -118,7 +119,8 @@ DirectedForce TouchBatch::sum(std::size_t member, const Law& law,
     sum.elastic += block.elastic[lane];
     sum.friction += block.friction[lane];
     sum.dashpot += block.dashpot[lane];
-    new_springs.push_back({node, master_is_b, block.shear_force[lane], block.normal[lane]});
+    new_springs.push_back(
+        {node, master_is_b, block.shear_force[lane], block.normal[lane], block.dashpot_push[lane]});
     ++sum.touching;
   }
   while (old != old_springs.end()) let_go(*old++);

@@ -9,8 +9,9 @@
 
 namespace reckon {
 
-// 2 added departed grains, 3 driven walls and stages, 4 the membrane, 5 the cell and bonds.
-inline const Hdf5Kind checkpoint_kind{"checkpoint", 5};
+// 2 added departed grains, 3 driven walls and stages, 4 the membrane, 5 the cell and bonds, 6 the
+// last push of dashpots.
+inline const Hdf5Kind checkpoint_kind{"checkpoint", 6};
 
 /// How the parts of the state lie in columns. The same walk fills columns from the state, and the
 /// state from columns: `Columns` offers number, vector, quaternion, id and flag.
@@ -54,6 +55,7 @@ void walk_spring(Columns& columns, Spring& spring) {
   columns.flag("master_is_b", spring.master_is_b);
   columns.vector("shear_force", "N", spring.shear_force);
   columns.vector("normal", "1", spring.normal);
+  if (columns.has_since(6)) columns.number("dashpot_push", "N", spring.dashpot_push);
 }
 
 template <class Columns, class Departed>
@@ -132,6 +134,7 @@ void walk_membrane_spring(Columns& columns, Spring& spring) {
   columns.id("grain", spring.grain);
   columns.vector("shear_force", "N", spring.shear_force);
   columns.vector("normal", "1", spring.normal);
+  if (columns.has_since(6)) columns.number("dashpot_push", "N", spring.dashpot_push);
 }
 
 }  // namespace reckon

@@ -84,7 +84,18 @@ TEST(AreaLaw, DashpotNeverPulls) {
   EXPECT_EQ(leaving.force, Vec3{});  // no push, hence no friction either
   const NodeResponse coming = law.respond(context(0), touch, up, {0, 0, -50}, {});
   EXPECT_GT(coming.force.z, 1e8 * 0.005 * 1e-6);
-  EXPECT_GT(coming.dashpot, 0);
+  EXPECT_GT(coming.dashpot_push, 0);
+}
+
+TEST(DashpotLoss, IsTheMeanPushTimesTheWayAndOfALeavingNodeTheWhole) {
+  const NodeResponse now{.dashpot_push = 6};
+  const Touch deep{.phi = -1e-3};
+  EXPECT_DOUBLE_EQ(dashpot_loss(10, now, deep, -2, 1e-4), 8 * 2e-4);
+  EXPECT_DOUBLE_EQ(dashpot_loss(0, now, deep, -2, 1e-4), 3 * 2e-4);
+  const NodeResponse pulls{.dashpot_push = -6};
+  EXPECT_DOUBLE_EQ(dashpot_loss(-10, pulls, deep, 2, 1e-4), 8 * 2e-4);
+  const Touch leaving{.phi = -1e-4};
+  EXPECT_DOUBLE_EQ(dashpot_loss(-10, pulls, leaving, 2, 1e-4), 11 * 2e-4);
 }
 
 /// One head-on impact of a mass on a spring force K x^p, integrated independently of the engine.
