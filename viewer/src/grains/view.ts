@@ -31,6 +31,7 @@ import type { Frame } from "../data/frame.ts";
 import type { Run } from "../data/run.ts";
 import type { Rgb } from "../colours.ts";
 import { boundsOf, wallLines } from "./outlines.ts";
+import { CellView } from "./cell.ts";
 import { listenToKeys, listenToPointer } from "./input.ts";
 import { MembraneView } from "./membrane.ts";
 import { Detail, Pace } from "./pace.ts";
@@ -90,6 +91,7 @@ export class GrainView {
   private readonly grainMaterial = new MeshLambertMaterial();
   private readonly standIns = new StandIns();
   private readonly membrane = new MembraneView();
+  private readonly cell = new CellView();
   private colourOf: (row: number) => Rgb = () => [0.8, 0.8, 0.8];
   private colours = new Float32Array(); // three per row
   private readonly plane = new Plane();
@@ -133,7 +135,7 @@ export class GrainView {
     this.light.position.set(-0.6, 0.9, 1);
     this.highlight.visible = false;
     const { coarse, balls } = this.standIns;
-    this.scene.add(this.highlight, coarse, balls, this.membrane.group);
+    this.scene.add(this.highlight, coarse, balls, this.membrane.group, this.cell.lines);
     for (const material of [this.grainMaterial, coarse.material]) paintCutsFlat(material);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
@@ -171,6 +173,7 @@ export class GrainView {
     this.placeGrains(frame);
     this.placeWalls(frame);
     this.membrane.setFrame(frame);
+    this.cell.setFrame(frame);
     this.applySlice();
     this.placeHighlight();
     this.draw();
