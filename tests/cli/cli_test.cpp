@@ -360,10 +360,10 @@ TEST_F(CliTest, LongWorkDrawsABarOnATerminal) {
   EXPECT_NE(run.find(" steps/s"), std::string::npos) << run;
   EXPECT_NE(run.find("\r\033[Kcomplete at step 4000"), std::string::npos) << run;
   const std::string made = on_terminal(
-      program + " grains generate --count 60 --voxels-per-diameter 40 --threads 1 -o many.h5");
+      program + " grains generate --count 12 --voxels-per-diameter 40 --threads 1 -o many.h5");
   EXPECT_NE(made.find("\r\033[K["), std::string::npos) << made;
-  EXPECT_NE(made.find(" of 60 grains"), std::string::npos) << made;
-  EXPECT_NE(made.find("\r\033[Kmany.h5: 60 grains"), std::string::npos) << made;
+  EXPECT_NE(made.find(" of 12 grains"), std::string::npos) << made;
+  EXPECT_NE(made.find("\r\033[Kmany.h5: 12 grains"), std::string::npos) << made;
 }
 
 TEST_F(CliTest, ARunAnswersInJsonWithWhatItsStagesHaveShown) {
