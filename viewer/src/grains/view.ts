@@ -36,8 +36,9 @@ import { listenToKeys, listenToPointer } from "./input.ts";
 import { MembraneView } from "./membrane.ts";
 import { Detail, Pace } from "./pace.ts";
 import { pickGrain } from "./pick.ts";
+import { geometryOf, paintCutsFlat } from "./solids.ts";
 import { StandIns } from "./stand_ins.ts";
-import { ball, type ShapeSurfaces, type Surface, unpackSurfaces } from "./surfaces.ts";
+import { ball, type ShapeSurfaces, unpackSurfaces } from "./surfaces.ts";
 
 export type GrainStyle = "solid" | "faint" | "hidden";
 export type Axis = "x" | "y" | "z";
@@ -52,24 +53,6 @@ export interface Slice {
 
 const pickedColour = 0xd81b60;
 const settleTime = 250; // [ms] after the last move until the fine ones come back
-
-function geometryOf(surface: Surface): BufferGeometry {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(surface.position, 3));
-  geometry.setAttribute("normal", new BufferAttribute(surface.normal, 3));
-  geometry.setIndex(new BufferAttribute(surface.index, 1));
-  return geometry;
-}
-
-/** Where the slicing plane opens a grain, its inside is painted in one shade, like a cut face. */
-function paintCutsFlat(material: MeshLambertMaterial): void {
-  material.onBeforeCompile = (shader) => {
-    shader.fragmentShader = shader.fragmentShader.replace(
-      "#include <opaque_fragment>",
-      "if (!gl_FrontFacing) outgoingLight = 0.58 * diffuseColor.rgb;\n#include <opaque_fragment>",
-    );
-  };
-}
 
 interface ShapeMesh {
   mesh: InstancedMesh;
