@@ -74,6 +74,7 @@ py::dict table_of(const std::vector<SavedGrain>& grains) {
       column<double>(grains, [](const auto& g) { return g.equivalent_radius; });
   table["mass"] = column<double>(grains, [](const auto& g) { return g.mass; });
   table["touching"] = column<std::uint32_t>(grains, [](const auto& g) { return g.touching; });
+  table["cell_shift"] = vectors(grains, [](const auto& g) { return g.cell_shift; });
   return table;
 }
 

@@ -3,8 +3,8 @@
 //
 //   RECKON_PROGRAM=... node test-browser.mjs [report | watch]
 // Runs the tests in a headless Chromium; exits with 77 where there is none. With
-// RECKON_PICTURES=FOLDER it also saves the pictures of the documents, of the report that
-// RECKON_REPORT names or else of its own small run.
+// RECKON_PICTURES=FOLDER it also saves the pictures of the documents, of the reports that
+// RECKON_REPORT and, of a run in a periodic cell, RECKON_CELL_REPORT name, or else of its own small runs.
 import { spawnSync } from "node:child_process";
 import path from "node:path";
 import { fileURLToPath } from "node:url";

@@ -8,16 +8,77 @@
 #include <memory>
 #include <string>
 
+#include "grains_parts.hpp"
+#include "progress.hpp"
+#include "reckon/io/json_writer.hpp"
 #include "reckon/io/run_analysis.hpp"
 
 namespace reckon::app {
 
+namespace {
+
+struct Options {
+  std::string folder;
+  AnalysisOptions analysis;
+  std::string longest_edge;
+  bool json{false};
+};
+
+void print(const RunAnalysis& done) {
+  fmt::print("strain since step {}, around each grain\n", done.from);
+  fmt::print("{:>12}  {:>12}  {:>12}  {:>12}\n", "step", "shear, mean", "shear, 90 %",
+             "volumetric");
+  for (const StrainSummary& strain : done.strains) {
+    fmt::print("{:>12}  {:>12.4f}  {:>12.4f}  {:>12.4f}\n", strain.step, strain.shear,
+               strain.largest, strain.volumetric);
+  }
+  fmt::print("open {}\n", done.strain_index.string());
+  if (!done.force_distribution.empty()) {
+    fmt::print("forces: {}\n", done.force_distribution.string());
+  }
+}
+
+std::string as_json(const RunAnalysis& done) {
+  JsonWriter json;
+  json.begin_object();
+  json.value("from_step", done.from);
+  json.begin_array("strains");
+  for (const StrainSummary& strain : done.strains) {
+    json.begin_object();
+    json.value("step", strain.step);
+    json.value("shear_mean", strain.shear);
+    json.value("shear_percentile_90", strain.largest);
+    json.value("volumetric_mean", strain.volumetric);
+    json.end();
+  }
+  json.end();
+  json.value("strain_index", done.strain_index.string());
+  json.value("force_distribution", done.force_distribution.string());
+  json.end();
+  return json.text();
+}
+
+void analyse(const Options& options) {
+  AnalysisOptions wanted = options.analysis;
+  if (!options.longest_edge.empty()) {
+    wanted.longest_edge = parse_length("--longest-edge", options.longest_edge);
+  }
+  RunAnalysis done;
+  {
+    CountDisplay display{"saved times"};
+    done = analyse_run(RunFolder{options.folder}, wanted,
+                       [&](std::size_t made, std::size_t total) { display.show(made, total); });
+  }
+  if (options.json) {
+    fmt::print("{}", as_json(done));
+  } else {
+    print(done);
+  }
+}
+
+}  // namespace
+
 void add_analyse_command(CLI::App& app) {
-  struct Options {
-    std::string folder;
-    AnalysisOptions analysis;
-    double edge_mm{0};
-  };
   CLI::App* command = app.add_subcommand(
       "analyse", "Local strains and the distribution of contact forces from a run's saved fields");
   auto options = std::make_shared<Options>();
@@ -25,37 +86,21 @@ void add_analyse_command(CLI::App& app) {
   command->add_option("--from", options->analysis.from,
                       "Step that strains are counted from; by default the first saved in the last "
                       "stage");
-  command
-      ->add_option("--longest-edge", options->edge_mm,
-                   "Of the tetrahedra that count [mm]; 0: five mean diameters of grains")
-      ->check(CLI::Range(0.0, 1e12))
-      ->capture_default_str();
+  command->add_option("--longest-edge", options->longest_edge,
+                      "Of the tetrahedra that count, e.g. 5mm (default: five mean diameters)");
   command
       ->add_option("--bin", options->analysis.bin_width,
                    "Width of the bins of forces, over the mean force")
       ->check(CLI::Range(1e-4, 1e4))
       ->capture_default_str();
+  command->add_flag("--json", options->json, "Answer in JSON");
   command->footer(
       "Strains are those of a Delaunay triangulation of the grains' centres, averaged around each\n"
       "grain; they show shear bands. strain.pvd opens them in ParaView, force_distribution.csv "
       "has\n"
       "a line per bin and saved step.\n\n"
       "Example:\n  reckon analyse triaxial.run");
-  command->callback([options] {
-    if (options->edge_mm > 0) options->analysis.longest_edge = 1e-3 * options->edge_mm;
-    const RunAnalysis done = analyse_run(RunFolder{options->folder}, options->analysis);
-    fmt::print("strain since step {}, around each grain\n", done.from);
-    fmt::print("{:>12}  {:>12}  {:>12}  {:>12}\n", "step", "shear, mean", "shear, 90 %",
-               "volumetric");
-    for (const StrainSummary& strain : done.strains) {
-      fmt::print("{:>12}  {:>12.4f}  {:>12.4f}  {:>12.4f}\n", strain.step, strain.shear,
-                 strain.largest, strain.volumetric);
-    }
-    fmt::print("open {}\n", done.strain_index.string());
-    if (!done.force_distribution.empty()) {
-      fmt::print("forces: {}\n", done.force_distribution.string());
-    }
-  });
+  command->callback([options] { analyse(*options); });
 }
 
 }  // namespace reckon::app

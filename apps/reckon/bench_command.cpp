@@ -99,15 +99,21 @@ void add_bench_command(CLI::App& app) {
       ->required()
       ->check(CLI::IsMember(names));
   command->add_option("--size", options->size, "small: a few grains and steps, to try it out")
-      ->check(CLI::IsMember({"full", "small"}));
+      ->check(CLI::IsMember({"full", "small"}))
+      ->capture_default_str();
   command->add_option("--grains", options->grains,
                       "Number of grains instead of the workload's own");
   command->add_option("--threads", options->threads, "Threads; above 1 also compares with one")
-      ->check(CLI::Range(1, 1024));
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
   std::vector<std::string> levels{"auto"};
   for (const SimdLevel level : simd_levels_here()) levels.emplace_back(name_of(level));
-  command->add_option("--simd", options->simd, "Instructions that look for near nodes")
-      ->check(CLI::IsMember(levels));
+  // Which there are depends on the machine; what the reference says does not.
+  command
+      ->add_option("--simd", options->simd,
+                   "Instructions that look for near nodes: auto, scalar, avx2, avx512 or neon")
+      ->check(CLI::IsMember(levels).description(""))
+      ->capture_default_str();
   add_storage_option(*command, options->storage);
   command->add_option("--cache", options->cache, "Keep packings in this folder, and reuse them");
   command->add_option("--save", options->save, "Also write WORKLOAD.MACHINE.json into this folder");

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -25,11 +27,36 @@ struct OptionText {
   bool argument{false};  ///< stands without a name
 };
 
+/// "TEXT:{a,b}" and "ENUM:value in {a->0,b->1} OR {0,1}" offer a and b; other types nothing.
+std::vector<std::string> choices_of(const std::string& type) {
+  std::vector<std::string> choices;
+  const std::size_t open = type.find('{');
+  if (open == std::string::npos) return choices;
+  const std::size_t close = type.find('}', open);
+  for (std::size_t begin = open + 1; begin < close;) {
+    const std::size_t end = std::min(type.find(',', begin), close);
+    const std::string choice = type.substr(begin, end - begin);
+    choices.push_back(choice.substr(0, choice.find("->")));
+    begin = end + 1;
+  }
+  return choices;
+}
+
+/// What a user calls that which CLI11 calls INT and so on; a form of its own, like LX,LY,LZ, stays.
+std::string value_name(const std::string& type, bool is_choice) {
+  if (is_choice) return "NAME";
+  const std::string name = type.substr(0, type.find(':'));
+  if (name == "INT" || name == "UINT") return "N";
+  return name == "FLOAT" ? "NUMBER" : name;
+}
+
 /// CLI11 names a type with what it must fulfil, "INT:INT in [1 - 9]" or "TEXT:{a,b}": the first
-/// part goes behind the option's name, a range into its meaning.
-void add_type(const std::string& type, bool argument, OptionText& text) {
-  const std::size_t colon = type.find(':');
-  if (!argument) text.value = type.substr(0, colon);
+/// part goes behind the option's name, choices and range into its meaning.
+void add_type(const std::string& type, OptionText& text) {
+  const std::vector<std::string> choices = choices_of(type);
+  if (!text.argument) text.value = value_name(type, !choices.empty());
+  if (!choices.empty() && !text.argument)
+    text.meaning += fmt::format(" (one of {})", fmt::join(choices, ", "));
   const std::size_t open = type.find('[');
   const std::size_t close = type.find(']');
   const std::size_t dash = type.find(" - ", open);
@@ -38,21 +65,27 @@ void add_type(const std::string& type, bool argument, OptionText& text) {
                               type.substr(dash + 3, close - dash - 3));
 }
 
+OptionText text_of(const CLI::Option& option) {
+  const bool argument = option.get_positional();
+  OptionText text{.names = option.get_name(argument, true),
+                  .value = {},
+                  .meaning = option.get_description(),
+                  .argument = argument};
+  for (std::size_t at = 0; (at = text.names.find(',', at)) != std::string::npos; at += 2) {
+    text.names.replace(at, 1, ", ");
+  }
+  if (option.get_type_size() > 0) add_type(option.get_type_name(), text);
+  if (!option.get_default_str().empty()) {
+    text.meaning += fmt::format(" (default: {})", option.get_default_str());
+  }
+  if (!argument && option.get_required()) text.meaning += " (required)";
+  return text;
+}
+
 std::vector<OptionText> options_of(const CLI::App& app) {
   std::vector<OptionText> options;
   for (const CLI::Option* option : app.get_options([](const CLI::Option*) { return true; })) {
-    const bool argument = option->get_positional();
-    OptionText text{.names = option->get_name(argument, true),
-                    .meaning = option->get_description(),
-                    .argument = argument};
-    for (std::size_t at = 0; (at = text.names.find(',', at)) != std::string::npos; at += 2) {
-      text.names.replace(at, 1, ", ");
-    }
-    if (option->get_type_size() > 0) add_type(option->get_type_name(), argument, text);
-    if (!option->get_default_str().empty()) {
-      text.meaning += fmt::format(" (default: {})", option->get_default_str());
-    }
-    options.push_back(std::move(text));
+    options.push_back(text_of(*option));
   }
   return options;
 }
@@ -79,6 +112,30 @@ std::string usage(const CLI::App& app, const std::string& path) {
   }
   return text + (named ? " [OPTIONS]" : "");
 }
+
+/// `--help` in the words of the other pages.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() {
+    column_width(32);
+    label("Positionals", "Arguments");
+    label("Subcommands", "Commands");
+  }
+  std::string make_usage(const CLI::App* app, std::string path) const override {
+    return fmt::format("\nUsage: {}\n", usage(*app, path));
+  }
+  std::string make_option_name(const CLI::Option* option, bool /*argument*/) const override {
+    const OptionText text = text_of(*option);
+    return text.argument ? upper_case(text.names) : text.names;
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string value = text_of(*option).value;
+    return value.empty() ? value : ' ' + value;
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return text_of(*option).meaning;
+  }
+};
 
 template <class Visit>
 void walk(const CLI::App& app, const std::string& path, Visit&& visit) {
@@ -118,6 +175,8 @@ std::string roff(std::string_view text) {
 std::string roff_block(std::string_view text) { return ".PP\n.nf\n" + roff(text) + "\n.fi\n"; }
 
 }  // namespace
+
+void use_help_format(CLI::App& root) { root.formatter(std::make_shared<HelpFormatter>()); }
 
 std::string commands_markdown(const CLI::App& root) {
   std::string page =

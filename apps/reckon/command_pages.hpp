@@ -12,6 +12,8 @@ namespace reckon::app {
 
 // The command line as it is described to CLI11, told in other ways. `root` is the whole program.
 
+/// Lets `--help` of the program, and of what is added to it afterwards, say the same.
+void use_help_format(CLI::App& root);
 /// docs/reference/commands.md: every command with its options.
 [[nodiscard]] std::string commands_markdown(const CLI::App& root);
 /// The same as a manual page, reckon(1), in the macros of groff_man(7).

@@ -3,11 +3,9 @@
 #include "grains_command.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -15,14 +13,12 @@
 #include "grains_parts.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/core/error.hpp"
-#include "reckon/io/human.hpp"
 #include "reckon/io/units.hpp"
 
 namespace reckon::app {
 namespace {
 
 constexpr Dimension length_dimension{.mass = 0, .length = 1, .time = 0, .angle = 0};
-constexpr double redraw_interval = 0.2;  // [s]
 
 [[noreturn]] void refuse(const std::string& option, std::string problem, std::string reason,
                          std::string fix) {
@@ -89,7 +85,7 @@ void add_storage_option(CLI::App& command, ShapeStorage& storage) {
                   "full: whole grids; band: 16-bit distances within two voxels of the surface and "
                   "nodes in single precision, a quarter of the memory or less")
       ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case))
-      ->option_text("full|band [full]");
+      ->default_str("full");
 }
 
 std::vector<std::size_t> choose_shapes(const LibrarySource& library,
@@ -105,31 +101,6 @@ std::vector<std::size_t> choose_shapes(const LibrarySource& library,
     chosen.push_back(static_cast<std::size_t>(&find_shape(entries, name) - entries.data()));
   }
   return chosen;
-}
-
-CountDisplay::CountDisplay(std::size_t total, std::string what)
-    : total_{total},
-      what_{std::move(what)},
-      terminal_{::isatty(STDERR_FILENO) == 1},
-      start_{std::chrono::steady_clock::now()},
-      last_{start_} {}
-
-CountDisplay::~CountDisplay() {
-  if (terminal_) std::fputs("\r\033[K", stderr);
-}
-
-double CountDisplay::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
-
-void CountDisplay::show(std::size_t done) {
-  const auto now = std::chrono::steady_clock::now();
-  if (!terminal_ || std::chrono::duration<double>(now - last_).count() < redraw_interval) return;
-  last_ = now;
-  const double rate = static_cast<double>(done) / seconds();
-  fmt::print(stderr, "\r\033[K{} of {} {}, {:.3g} a second, {} left", done, total_, what_, rate,
-             human_duration(static_cast<double>(total_ - done) / rate));
-  std::fflush(stderr);
 }
 
 void add_grains_command(CLI::App& app) {

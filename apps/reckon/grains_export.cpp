@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "grains_parts.hpp"
+#include "progress.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/avatar/surface_extraction.hpp"
 #include "reckon/avatar/surface_files.hpp"
@@ -52,7 +53,7 @@ void add_grains_export(CLI::App& grains) {
     const auto shapes = choose_shapes(library, options->names);
     const std::filesystem::path folder{options->folder};
     std::filesystem::create_directories(folder);
-    CountDisplay display{shapes.size(), "grains"};
+    CountDisplay display{"grains"};
     std::size_t done = 0;
     for (const std::size_t s : shapes) {
       const Shape shape = library.read(s);
@@ -63,7 +64,7 @@ void add_grains_export(CLI::App& grains) {
         write_surface_vtp(folder / (name + ".vtp"), shape);
         write_nodes_vtp(folder / (name + "_nodes.vtp"), shape);
       }
-      display.show(++done);
+      display.show(++done, shapes.size());
     }
     fmt::print("{}: {} grains\n", options->folder, human_count(shapes.size()));
   });

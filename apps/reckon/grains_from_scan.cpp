@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "grains_parts.hpp"
+#include "progress.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/io/placement_table.hpp"
@@ -85,9 +86,10 @@ void run(Options options) {
   const StoredScan stored{scan.raw, scan.denoised, scan.labels, scan.levels, scan.work};
   ScannedAssembly assembly;
   {
-    CountDisplay display{scan.choice.kept.size(), "grains"};
+    const std::size_t kept = scan.choice.kept.size();
+    CountDisplay display{"grains"};
     assembly = make_avatars(stored, scan.grains, scan.choice.kept, avatars,
-                            [&](std::size_t done) { display.show(done); });
+                            [&](std::size_t done) { display.show(done, kept); });
   }
   LibraryWriter library{folder / "library.h5", avatars.resolution.storage};
   for (const KeptShape& shape : assembly.shapes) library.add(shape.whole());
@@ -103,10 +105,12 @@ void add_stage_options(CLI::App& command, Options& options) {
     command.add_option(name, value, what)->capture_default_str();
   };
   SegmentSettings& s = options.segment;
-  command.add_option("--denoise", s.denoise.method, "none, median or curvature (the default)")
-      ->transform(CLI::CheckedTransformer(denoisings));
-  number("--iterations", s.denoise.iterations, "Of curvature diffusion");
-  number("--conductance", s.denoise.conductance, "Of curvature diffusion; less keeps more edges");
+  command.add_option("--denoise", s.denoise.method, "How noise is taken out")
+      ->transform(CLI::CheckedTransformer(denoisings))
+      ->default_str("curvature");
+  number("--iterations", s.denoise.iterations, "Iterations of curvature diffusion");
+  number("--conductance", s.denoise.conductance,
+         "Conductance of curvature diffusion; less keeps more edges");
   command.add_option("--threshold", s.mask.threshold,
                      "Gray value between void and solid (default: found by Otsu's method)");
   command.add_flag("--no-fill", options.no_fill, "Leave voids inside grains");

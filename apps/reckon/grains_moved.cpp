@@ -14,6 +14,7 @@
 #include "grains_parts.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/io/json_writer.hpp"
 #include "reckon/io/placement_table.hpp"
 #include "reckon/io/run_surfaces.hpp"
 #include "reckon/math/portable.hpp"
@@ -27,6 +28,7 @@ struct Options {
   std::string placement;
   std::string run;
   std::string output;
+  bool json{false};
 };
 
 /// The angle of the smallest turn from one orientation to another [rad].
@@ -50,12 +52,57 @@ Spread spread_of(std::vector<double> values) {
   return spread;
 }
 
-void print_overlaps(const char* when, const std::vector<ShapeView>& views,
-                    const std::vector<GrainState>& grains) {
+/// Pairs whose surfaces overlap.
+struct Overlaps {
+  std::size_t pairs{0};
+  double deepest{0};  ///< [m]
+};
+Overlaps overlaps_of(const std::vector<ShapeView>& views, const std::vector<GrainState>& grains) {
   const auto pairs = near_pairs(views, grains, 0);
-  double deepest = 0;
-  for (const NearPair& pair : pairs) deepest = std::max(deepest, -pair.gap);
-  fmt::print("{}   {} pairs overlap, by {:.4g} m at most\n", when, pairs.size(), deepest);
+  Overlaps found{.pairs = pairs.size()};
+  for (const NearPair& pair : pairs) found.deepest = std::max(found.deepest, -pair.gap);
+  return found;
+}
+
+struct Movement {
+  Spread moved;   ///< in diameters
+  Spread turned;  ///< [deg]
+  Overlaps before;
+  Overlaps after;
+};
+
+void print(const Movement& m) {
+  fmt::print("          {:>10} {:>10} {:>10}\n", "mean", "95 %", "most");
+  fmt::print("moved     {:>10.5f} {:>10.5f} {:>10.5f} diameters\n", m.moved.mean, m.moved.high,
+             m.moved.largest);
+  fmt::print("turned    {:>10.4f} {:>10.4f} {:>10.4f} degrees\n", m.turned.mean, m.turned.high,
+             m.turned.largest);
+  fmt::print("before   {} pairs overlap, by {:.4g} m at most\n", m.before.pairs, m.before.deepest);
+  fmt::print("after    {} pairs overlap, by {:.4g} m at most\n", m.after.pairs, m.after.deepest);
+}
+
+std::string as_json(const Movement& m) {
+  JsonWriter json;
+  json.begin_object();
+  const auto spread = [&](const char* key, const Spread& values) {
+    json.begin_object(key);
+    json.value("mean", values.mean);
+    json.value("percentile_95", values.high);
+    json.value("most", values.largest);
+    json.end();
+  };
+  const auto overlaps = [&](const char* key, const Overlaps& found) {
+    json.begin_object(key);
+    json.value("overlapping_pairs", found.pairs);
+    json.value("deepest_overlap_m", found.deepest);
+    json.end();
+  };
+  spread("moved_diameters", m.moved);
+  spread("turned_degrees", m.turned);
+  overlaps("before", m.before);
+  overlaps("after", m.after);
+  json.end();
+  return json.text();
 }
 
 void compare(const Options& options) {
@@ -95,16 +142,14 @@ void compare(const Options& options) {
     text += fmt::format("{},{:.6g},{:.6g},{:.6g}\n", n, distance, distance / diameter, angle);
   }
   if (!options.output.empty()) write_file(options.output, text);
-  const Spread way = spread_of(moved);
-  const Spread turn = spread_of(turned);
-  fmt::print("          {:>10} {:>10} {:>10}\n", "mean", "95 %", "most");
-  fmt::print("moved     {:>10.5f} {:>10.5f} {:>10.5f} diameters\n", way.mean, way.high,
-             way.largest);
-  fmt::print("turned    {:>10.4f} {:>10.4f} {:>10.4f} degrees\n", turn.mean, turn.high,
-             turn.largest);
   const auto views = shape_views(library);
-  print_overlaps("before", views, before);
-  print_overlaps("after ", views, after);
+  const Movement movement{spread_of(moved), spread_of(turned), overlaps_of(views, before),
+                          overlaps_of(views, after)};
+  if (options.json) {
+    fmt::print("{}", as_json(movement));
+  } else {
+    print(movement);
+  }
 }
 
 }  // namespace
@@ -121,6 +166,7 @@ void add_grains_moved(CLI::App& grains) {
       ->required()
       ->check(CLI::ExistingDirectory);
   command->add_option("-o,--output", options->output, "Write a line per grain to this .csv");
+  command->add_flag("--json", options->json, "Answer in JSON");
   command->callback([=] { compare(*options); });
 }
 

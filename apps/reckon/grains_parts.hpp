@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -45,25 +44,5 @@ void add_storage_option(CLI::App& command, ShapeStorage& storage);
 /// is not there.
 [[nodiscard]] std::vector<std::size_t> choose_shapes(const LibrarySource& library,
                                                      std::span<const std::string> names);
-
-/// Shows how many of `total` are done, how fast, and the time left, on one line of a terminal;
-/// nothing elsewhere.
-class CountDisplay {
- public:
-  CountDisplay(std::size_t total, std::string what);
-  ~CountDisplay();
-  CountDisplay(const CountDisplay&) = delete;
-  CountDisplay& operator=(const CountDisplay&) = delete;
-
-  void show(std::size_t done);
-  [[nodiscard]] double seconds() const;
-
- private:
-  std::size_t total_;
-  std::string what_;
-  bool terminal_;
-  std::chrono::steady_clock::time_point start_;
-  std::chrono::steady_clock::time_point last_;
-};
 
 }  // namespace reckon::app

@@ -17,6 +17,7 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/io/human.hpp"
+#include "reckon/io/json_writer.hpp"
 #include "reckon/io/placement_table.hpp"
 #include "reckon/io/run_surfaces.hpp"
 #include "reckon/io/scene_loader.hpp"
@@ -38,6 +39,7 @@ struct Options {
   std::string type{"uint16"};
   bool no_partial_volume{false};
   int threads{0};
+  bool json{false};
   ScannerSettings scanner;
 };
 
@@ -59,7 +61,7 @@ Assembly open_run(const Options& options) {
   }
   const Checkpoint checkpoint = read_checkpoint(folder.checkpoint(step));
   const auto catalog = std::make_shared<const ShapeCatalog>(shapes_of(checkpoint, options.source));
-  return {checkpoint.state.grains, [catalog](ShapeId shape) { return catalog->read(shape); }};
+  return {fields_of(checkpoint).grains, [catalog](ShapeId shape) { return catalog->read(shape); }};
 }
 
 Assembly open_scene(const Options& options) {
@@ -121,8 +123,23 @@ void scan(const Options& options) {
   write_volume(folder / "labels.h5", to_gray(result.labels), VoxelType::uint32);
   save_library(folder / "library.h5", library);
   write_placement(folder / "placement.csv", result.grains);
-  write_contacts(folder / "contacts.csv", near_surfaces(shape_views(library), result.grains, 0));
+  const auto contacts = near_surfaces(shape_views(library), result.grains, 0);
+  write_contacts(folder / "contacts.csv", contacts);
   const auto& dims = result.gray.dims;
+  if (options.json) {
+    JsonWriter json;
+    json.begin_object();
+    json.value("folder", options.folder);
+    json.value("grains", result.grains.size());
+    json.value("contacts", contacts.size());
+    json.begin_array("voxels");
+    for (const std::int32_t dim : dims) json.value({}, dim);
+    json.end();
+    json.value("voxel_m", settings.voxel);
+    json.end();
+    fmt::print("{}", json.text());
+    return;
+  }
   fmt::print("{}: {} grains in {} x {} x {} voxels\n", options.folder,
              human_count(result.grains.size()), dims[0], dims[1], dims[2]);
 }
@@ -146,7 +163,7 @@ void add_grains_scan(CLI::App& grains) {
   command->add_option("--format", options->format, "Ending of the volume's file")
       ->capture_default_str()
       ->check(CLI::IsMember({"h5", "npy", "raw", "mha", "nrrd", "tif"}));
-  command->add_option("--type", options->type, "Numbers of the volume")
+  command->add_option("--type", options->type, "Type of the volume's numbers")
       ->capture_default_str()
       ->check(CLI::IsMember({"uint8", "uint16", "float32"}));
   const auto number = [&](const char* name, auto& value, const char* what) {
@@ -160,9 +177,10 @@ void add_grains_scan(CLI::App& grains) {
   number("--margin", s.margin, "Void around the grains [voxels]");
   number("--void-gray", s.void_gray, "Gray value of void");
   number("--solid-gray", s.solid_gray, "Gray value of solid");
-  number("--seed", s.seed, "Of the noise");
+  number("--seed", s.seed, "Seed of the noise");
   command->add_option("--threads", options->threads, "Threads (default: all)")
       ->check(CLI::Range(1, 4096));
+  command->add_flag("--json", options->json, "Answer in JSON");
   command->callback([=] { scan(*options); });
 }
 

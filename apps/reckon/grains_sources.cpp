@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "grains_parts.hpp"
+#include "progress.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/avatar/shape_sources.hpp"
 #include "reckon/avatar/shape_statistics.hpp"
@@ -75,9 +76,9 @@ void make(const std::vector<ShapeSource>& sources, const MakeOptions& options) {
   (void)PendingFile{options.output};  // finds a missing folder before the work, not after it
   double seconds = 0;
   {
-    CountDisplay display{sources.size(), "grains"};
+    CountDisplay display{"grains"};
     build_library_file(options.output, sources, resolution,
-                       [&](std::size_t done) { display.show(done); });
+                       [&](std::size_t done) { display.show(done, sources.size()); });
     seconds = display.seconds();
   }
   fmt::print("{}: {} {}, {}, {}\n", options.output, human_count(sources.size()),
@@ -278,7 +279,7 @@ void add_generate(CLI::App& grains) {
   number("--flatness", s.flatness.mean, "Mean thickness / width");
   number("--flatness-deviation", s.flatness.deviation, "Its standard deviation");
   number("--fewest-faces", s.fewest_faces, "Faces that a grain is cut by, at least");
-  number("--most-faces", s.most_faces, "and at most");
+  number("--most-faces", s.most_faces, "Faces that a grain is cut by, at most");
   number("--face-irregularity", s.face_irregularity, "Part of the radius that a face cuts in");
   number("--roundness", s.roundness.mean, "Mean corner radius / inscribed radius");
   number("--roundness-deviation", s.roundness.deviation, "Its standard deviation");

@@ -15,6 +15,7 @@
 #include "analyse_command.hpp"
 #include "bench_command.hpp"
 #include "check_command.hpp"
+#include "command_pages.hpp"
 #include "diff_command.hpp"
 #include "exit_codes.hpp"
 #include "grains_command.hpp"
@@ -121,6 +122,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
       "Shapes come from `grains`, a scene says what happens to them, `check` and `run` do the "
       "rest.",
       "reckon"};
+  use_help_format(app);
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
   add_grains_command(app);

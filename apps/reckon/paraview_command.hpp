@@ -8,7 +8,7 @@ class App;
 
 namespace reckon::app {
 
-/// reckon paraview: writes the grains' true paraview from checkpoints.
+/// reckon paraview: writes a state with which ParaView draws a run.
 void add_paraview_command(CLI::App& app);
 
 }  // namespace reckon::app

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "reckon/io/human.hpp"
 
@@ -18,10 +19,16 @@ namespace {
 constexpr double redraw_interval = 0.2;       // [s]
 constexpr double longest_line_interval = 60;  // [s]
 
-std::size_t terminal_width() {
+std::size_t terminal_width(int descriptor) {
   winsize size{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+  if (::ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
   return size.ws_col;
+}
+
+/// Draws a line over the last one.
+void draw(std::FILE* to, int descriptor, double share, std::string_view text) {
+  fmt::print(to, "\r\033[K{}", bar_line(share, text, terminal_width(descriptor)));
+  std::fflush(to);
 }
 
 double share_done(const RunProgress& progress) {
@@ -36,6 +43,18 @@ std::string time_left(const RunProgress& progress, double steps_per_second) {
 }
 
 }  // namespace
+
+std::string bar_line(double share, std::string_view text, std::size_t width) {
+  constexpr std::size_t longest_bar = 30;
+  const std::string told = fmt::format("{:3.0f} %  {}", 100 * share, text);
+  const std::size_t taken = told.size() + 4;  // brackets, a blank, and the cursor's place
+  const std::size_t bar = std::min(width > taken ? width - taken : 0, longest_bar);
+  const auto filled = static_cast<std::size_t>(share * static_cast<double>(bar));
+  const std::string line = bar == 0 ? told
+                                    : fmt::format("[{}{}] {}", std::string(filled, '#'),
+                                                  std::string(bar - filled, '.'), told);
+  return line.substr(0, width > 0 ? width - 1 : 0);  // a line that wraps cannot be drawn over
+}
 
 ProgressDisplay::ProgressDisplay(bool quiet, bool may_redraw)
     : quiet_{quiet},
@@ -77,16 +96,10 @@ double ProgressDisplay::rate(const RunProgress& progress, Clock::time_point now)
 }
 
 void ProgressDisplay::draw_bar(const RunProgress& progress, double steps_per_second) {
-  const std::string text =
-      fmt::format(" {:3.0f} %  step {} of {}  {:.3g} s  {:.3g} steps/s  {} left",
-                  100 * share_done(progress), progress.step, progress.steps, progress.time,
-                  steps_per_second, time_left(progress, steps_per_second));
-  const std::size_t room =
-      terminal_width() > text.size() + 4 ? terminal_width() - text.size() - 4 : 0;
-  const std::size_t bar = std::min<std::size_t>(room, 30);
-  const auto filled = static_cast<std::size_t>(share_done(progress) * static_cast<double>(bar));
-  fmt::print("\r\033[K[{}{}]{}", std::string(filled, '#'), std::string(bar - filled, '.'), text);
-  std::fflush(stdout);
+  draw(
+      stdout, STDOUT_FILENO, share_done(progress),
+      fmt::format("step {} of {}  {:.3g} s  {:.3g} steps/s  {} left", progress.step, progress.steps,
+                  progress.time, steps_per_second, time_left(progress, steps_per_second)));
   drawn_ = true;
 }
 
@@ -95,6 +108,31 @@ void ProgressDisplay::print_line(const RunProgress& progress, double steps_per_s
              progress.step, progress.steps, 100 * share_done(progress), progress.time,
              steps_per_second, time_left(progress, steps_per_second));
   std::fflush(stdout);
+}
+
+CountDisplay::CountDisplay(std::string what)
+    : what_{std::move(what)},
+      terminal_{::isatty(STDERR_FILENO) == 1},
+      start_{std::chrono::steady_clock::now()},
+      last_{start_} {}
+
+CountDisplay::~CountDisplay() {
+  if (terminal_) std::fputs("\r\033[K", stderr);
+}
+
+double CountDisplay::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void CountDisplay::show(std::size_t done, std::size_t total) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal_ || std::chrono::duration<double>(now - last_).count() < redraw_interval) return;
+  last_ = now;
+  const double rate = static_cast<double>(done) / seconds();
+  const double share = total == 0 ? 1 : static_cast<double>(done) / static_cast<double>(total);
+  draw(stderr, STDERR_FILENO, share,
+       fmt::format("{} of {} {}  {:.3g} a second  {} left", done, total, what_, rate,
+                   rate > 0 ? human_duration(static_cast<double>(total - done) / rate) : "?"));
 }
 
 }  // namespace reckon::app

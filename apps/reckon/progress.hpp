@@ -3,10 +3,16 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <string>
+#include <string_view>
 
 #include "reckon/io/run.hpp"
 
 namespace reckon::app {
+
+/// "[####......]  40 %  text", at most as wide as `width`; the bar gives way to the text.
+[[nodiscard]] std::string bar_line(double share, std::string_view text, std::size_t width);
 
 /// Shows how far a run is: a bar that redraws itself on a terminal, else a plain line now and then
 /// for logs of batch systems.
@@ -35,6 +41,26 @@ class ProgressDisplay {
   std::uint64_t rate_from_step_{0};
   double smooth_rate_{0};
   double line_interval_{1};  // grows, so that a log of days stays short [s]
+};
+
+/// Shows how many of a known number are done, how fast, and the time left: a bar on standard error
+/// where that is a terminal, nothing elsewhere. It goes away at the end.
+class CountDisplay {
+ public:
+  /// `what` is counted, e.g. "grains".
+  explicit CountDisplay(std::string what);
+  ~CountDisplay();
+  CountDisplay(const CountDisplay&) = delete;
+  CountDisplay& operator=(const CountDisplay&) = delete;
+
+  void show(std::size_t done, std::size_t total);
+  [[nodiscard]] double seconds() const;
+
+ private:
+  std::string what_;
+  bool terminal_;
+  std::chrono::steady_clock::time_point start_;
+  std::chrono::steady_clock::time_point last_;
 };
 
 }  // namespace reckon::app

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "progress.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/report/page.hpp"
@@ -34,7 +35,13 @@ void report(const Options& options) {
     if (shown == saved) continue;
     fmt::print("{}: {} of {} saved times (--frames)\n", run.root().string(), shown, saved);
   }
-  write_file(output, report_page(runs, options.limits));
+  std::string page;
+  {
+    CountDisplay display{"saved times"};
+    page = report_page(runs, options.limits,
+                       [&](std::size_t done, std::size_t total) { display.show(done, total); });
+  }
+  write_file(output, page);
   fmt::print("{}: {}; open it in a browser\n", output.string(),
              human_bytes(std::filesystem::file_size(output)));
 }

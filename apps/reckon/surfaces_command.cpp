@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "progress.hpp"
 #include "reckon/io/run_surfaces.hpp"
 
 namespace reckon::app {
@@ -28,7 +29,13 @@ void add_surfaces_command(CLI::App& app) {
       "output.surfaces = true in the scene.\n\n"
       "Example:\n  reckon surfaces settle.run");
   command->callback([options] {
-    const SurfaceFiles files = write_run_surfaces(RunFolder{options->folder}, options->step);
+    SurfaceFiles files;
+    {
+      CountDisplay display{"checkpoints"};
+      files = write_run_surfaces(
+          RunFolder{options->folder}, options->step,
+          [&](std::size_t done, std::size_t total) { display.show(done, total); });
+    }
     fmt::print("{} file{} written; open {}\n", files.written, files.written == 1 ? "" : "s",
                files.index.string());
   });

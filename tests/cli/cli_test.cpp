@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -34,12 +35,6 @@ TEST_F(CliTest, HelpAndVersion) {
   EXPECT_EQ(version.out.find("reckon "), 0U);
   EXPECT_EQ(version.err, "");
   EXPECT_EQ(reckon({"--help"}).code, 0);
-  for (const char* command :
-       {"check", "run", "diff", "report", "watch", "surfaces", "bench", "reference"}) {
-    const Outcome help = reckon({command, "--help"});
-    EXPECT_EQ(help.code, 0) << command;
-    EXPECT_NE(help.out.find("Example"), std::string::npos) << command;
-  }
 }
 
 TEST_F(CliTest, BenchComparesWithThePlainAlgorithm) {
@@ -264,6 +259,11 @@ bool looks_like_json(const std::string& text) {
 
 TEST_F(CliTest, EveryCommandKeepsTheSameManners) {
   ASSERT_EQ(reckon({"run", "scene.toml", "--out", "a", "--steps", "100", "--quiet"}).out, "");
+  ASSERT_EQ(reckon({"grains", "scan", "a", "--voxel", "0.1mm", "--out", "scan"}).code, 0);
+  write("placed.toml",
+        "title = 'placed'\ntime = { steps = 1 }\n[contact]\nnormal_stiffness = '1e9 N/m^3'\n"
+        "[[grains]]\nlibrary = 'scan/library.h5'\ntable = { file = 'scan/placement.csv' }\n");
+  ASSERT_EQ(reckon({"run", "placed.toml", "--out", "placed"}).code, 0);
   struct Row {
     std::vector<std::string> arguments;
     bool answers_in_json{false};
@@ -275,6 +275,7 @@ TEST_F(CliTest, EveryCommandKeepsTheSameManners) {
       {{"report", "a", "--frames", "0"}},
       {{"surfaces", "a"}},
       {{"paraview", "a"}},
+      {{"analyse", "a"}, true},
       {{"reference", "man"}},
       {{"grains", "generate", "--count", "2", "--d50", "1mm", "-o", "two.h5"}},
       {{"grains", "solid", "--sphere", "1mm", "-o", "solid.h5"}},
@@ -282,6 +283,10 @@ TEST_F(CliTest, EveryCommandKeepsTheSameManners) {
       {{"grains", "statistics", "grains.h5"}, true},
       {{"grains", "spheres", "grains.h5", "-o", "spheres.h5"}},
       {{"grains", "export", "grains.h5", "--out", "look"}},
+      {{"grains", "to-legacy", "grains.h5", "morphologies"}},
+      {{"grains", "from-legacy", "morphologies", "-o", "legacy.h5"}},
+      {{"grains", "scan", "a", "--voxel", "0.1mm", "--out", "scan"}, true},
+      {{"grains", "moved", "scan/placement.csv", "placed"}, true},
   };
   for (const auto& [arguments, answers_in_json] : commands) {
     SCOPED_TRACE(arguments[0] + " " + arguments[1]);
@@ -317,6 +322,48 @@ TEST_F(CliTest, EveryCommandKeepsTheSameManners) {
     EXPECT_EQ(wrong.err.find("reckon: error: "), 0U) << wrong.err;
     EXPECT_NE(wrong.err.find("--help"), std::string::npos) << wrong.err;
   }
+}
+
+/// The table in docs/reference/command-line.md names every command, and those with --json.
+TEST_F(CliTest, TheTableOfCommandsIsTrue) {
+  const std::string page = reckon({"reference", "commands"}).out;
+  std::istringstream table{read_file(RECKON_SOURCE_DIR "/docs/reference/command-line.md")};
+  std::size_t rows = 0;
+  for (std::string line; std::getline(table, line);) {
+    if (line.find("| `reckon ") != 0) continue;
+    ++rows;
+    std::vector<std::string> cells;
+    std::istringstream row{line.substr(2)};
+    for (std::string cell; std::getline(row, cell, '|');) cells.push_back(cell);
+    const std::string command = cells[0].substr(1, cells[0].find('`', 1) - 1);
+    const std::size_t section = page.find("\n## " + command + "\n");
+    ASSERT_NE(section, std::string::npos) << command;
+    const std::string described = page.substr(section, page.find("\n## ", section + 1) - section);
+    EXPECT_NE(described.find("Example"), std::string::npos) << command;
+    EXPECT_EQ(described.find("`--json`") != std::string::npos, cells[2] == " yes ") << command;
+  }
+  std::size_t commands = 0;
+  for (std::size_t at = 0; (at = page.find("\n## reckon ", at)) != std::string::npos; ++at)
+    ++commands;
+  EXPECT_EQ(rows, commands - 1);  // `reckon grains` is the name of a group
+}
+
+/// On a terminal (script(1) provides one) long work draws a bar, and takes it away again.
+TEST_F(CliTest, LongWorkDrawsABarOnATerminal) {
+  write("long.toml", scene_text("[time]\nsteps = 4000\n[output]\nhistory_interval = 4000\n"));
+  const auto on_terminal = [&](const std::string& line) {
+    return outcome_of(start_line({"/usr/bin/script", "-qec", line, "/dev/null"})).out;
+  };
+  const std::string program = RECKON_PROGRAM;
+  const std::string run = on_terminal(program + " run long.toml");
+  EXPECT_NE(run.find("\r\033[K["), std::string::npos) << run;
+  EXPECT_NE(run.find(" steps/s"), std::string::npos) << run;
+  EXPECT_NE(run.find("\r\033[Kcomplete at step 4000"), std::string::npos) << run;
+  const std::string made = on_terminal(
+      program + " grains generate --count 12 --voxels-per-diameter 40 --threads 1 -o many.h5");
+  EXPECT_NE(made.find("\r\033[K["), std::string::npos) << made;
+  EXPECT_NE(made.find(" of 12 grains"), std::string::npos) << made;
+  EXPECT_NE(made.find("\r\033[Kmany.h5: 12 grains"), std::string::npos) << made;
 }
 
 TEST_F(CliTest, ARunAnswersInJsonWithWhatItsStagesHaveShown) {

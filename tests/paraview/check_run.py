@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""pvpython check_run.py RUN RANKS STATE.png RANK.png: what ParaView makes of a run's files, and of the pictures.
+"""pvpython check_run.py RUN RANKS STATE.png RANK.png CELL_RUN CELL.png: what ParaView makes of a run's files, and of the pictures.
 
 The files are held against each other: forces in one must be the forces in another.
 """
 import os
+import re
 import sys
 import unittest
 
@@ -14,19 +15,19 @@ from paraview import servermanager
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
-RUN, RANKS, STATE_PICTURE, RANK_PICTURE = sys.argv[1:5]
+RUN, RANKS, STATE_PICTURE, RANK_PICTURE, CELL_RUN, CELL_PICTURE = sys.argv[1:7]
 COUNT = 120  # of grains, in scene.toml
 GRAIN_FIELDS = {"id": 1, "shape": 1, "radius": 1, "equivalent_radius": 1, "mass": 1, "orientation": 4, "velocity": 3,
                 "angular_velocity": 3, "speed": 1, "prescribed": 1, "contacts": 1, "contact_force": 3, "rank": 1}
 
 
-def series(name):
-    return pv.PVDReader(FileName=os.path.join(os.path.abspath(RUN), name + ".pvd"))
+def series(name, run=RUN):
+    return pv.PVDReader(FileName=os.path.join(os.path.abspath(run), name + ".pvd"))
 
 
-def last(name):
+def last(name, run=RUN):
     """The data of a series at its last time."""
-    reader = series(name)
+    reader = series(name, run)
     reader.UpdatePipeline(reader.TimestepValues[-1])
     return servermanager.Fetch(reader)
 
@@ -144,6 +145,35 @@ class Files(unittest.TestCase):
             for name in points:
                 expected = np.broadcast_to(grains[name][grain], points[name][own].shape)
                 np.testing.assert_allclose(points[name][own], expected, rtol=1e-6, atol=1e-12, err_msg=name)
+
+
+class PeriodicCell(unittest.TestCase):
+    def test_grains_are_in_the_box_that_is_drawn(self):
+        self.assertEqual(list(series("cell", CELL_RUN).TimestepValues), list(series("grains", CELL_RUN).TimestepValues))
+        data = last("cell", CELL_RUN)
+        self.assertEqual((data.GetNumberOfPoints(), data.GetNumberOfLines()), (8, 12))
+        corners = places(data)
+        edges = np.array([corners[1 << axis] - corners[0] for axis in range(3)])
+        self.assertGreater(abs(edges[1][0]), 0.05 * edges[1][1])  # it leans
+        within = np.linalg.solve(edges.T, (places(last("grains", CELL_RUN)) - corners[0]).T)
+        self.assertTrue(((within > -1e-9) & (within < 1 + 1e-9)).all())
+
+    def test_displacement_follows_a_grain_across_the_border(self):
+        with open(os.path.join(CELL_RUN, "paraview", "state.py"), encoding="utf-8") as file:
+            script = re.search('since_start = """(.*?)"""', file.read(), re.DOTALL).group(1)
+        grains = series("grains", CELL_RUN)
+        moved = pv.ProgrammableFilter(Input=[grains, pv.ForceTime(Input=grains, ForcedTime=0)], Script=script)
+        moved.UpdatePipeline(grains.TimestepValues[-1])
+        fields = arrays(servermanager.Fetch(moved).GetPointData())
+        crossed = np.linalg.norm(fields["cell_shift"], axis=1) > 0
+        self.assertTrue(crossed.any())
+        self.assertLess(np.linalg.norm(fields["displacement"], axis=1).max(), 4e-3)  # half an edge
+
+    def test_the_state_draws_grains_and_the_box(self):
+        grains = pixels(CELL_PICTURE)[:, :640]
+        self.assertGreater(drawn(grains).mean(), 0.2)
+        box = (abs(grains - np.array([31, 94, 140])) < 25).all(axis=2)
+        self.assertGreater(box.sum(), 300)
 
 
 pv._DisableFirstRenderCameraReset()

@@ -26,6 +26,9 @@ if [[ $# -gt 0 ]]; then
 fi
 "${launcher[@]}" "$reckon" run scene.toml --threads 1 --quiet
 "$reckon" paraview scene.run
+cp "$here/cell.toml" .
+"$reckon" run cell.toml --threads 1 --quiet
+"$reckon" paraview cell.run
 # Debian's ParaView draws through X only; a screen in memory will do, one for all. It aborts (134) when the screen that
 # it was given goes down at once, as it may where another program's has just ended.
 for attempt in 1 2 3 4 5; do
@@ -33,7 +36,8 @@ for attempt in 1 2 3 4 5; do
   xvfb-run -a -s "-screen 0 1600x1200x24" bash -e -c '
     pvpython scene.run/paraview/state.py state.png
     pvpython scene.run/paraview/state.py rank.png rank 0
-    pvpython "$1" scene.run "$2" state.png rank.png' - "$here/check_run.py" "$ranks" || code=$?
+    pvpython cell.run/paraview/state.py cell.png
+    pvpython "$1" scene.run "$2" state.png rank.png cell.run cell.png' - "$here/check_run.py" "$ranks" || code=$?
   [[ $code == 134 ]] || exit "$code"
   echo "no screen in attempt $attempt"
   sleep 2

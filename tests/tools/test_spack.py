@@ -10,7 +10,8 @@ import unittest
 from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-RECIPE = ROOT / "packaging/spack/packages/reckon/package.py"
+REPOSITORY = ROOT / "packaging/spack/spack_repo/reckon"
+RECIPE = REPOSITORY / "packages/reckon/package.py"
 
 # What CMake finds, and who brings it in Spack. None: comes with the compiler or CMake.
 PACKAGE_OF = {"Threads": None, "OpenMP": None, "fmt": "fmt", "Eigen3": "eigen", "HDF5": "hdf5", "tomlplusplus": "tomlplusplus",
@@ -27,7 +28,8 @@ class Recipe:
         scope = []  # of enclosing `with when(...)`
 
         def depends_on(spec, when=None, type=None):
-            self.dependencies[re.split(r"[@+~%]", spec)[0]] = " ".join([*scope, when or ""]).strip()
+            name = re.split(r"[@+~%]", spec)[0]
+            self.dependencies.setdefault(name, " ".join([*scope, when or ""]).strip())
 
         @contextlib.contextmanager
         def when(condition):
@@ -49,13 +51,17 @@ class Recipe:
 
         fake = types.ModuleType("spack.package")
         fake.__dict__.update(
-            CMakePackage=CMakePackage, license=lambda name: None, conflicts=lambda spec: None,
+            license=lambda name: None, conflicts=lambda spec: None,
             version=lambda name, **place: self.versions.update({name: place}),
             variant=lambda name, **facts: self.variants.update({name: facts}),
             depends_on=depends_on, extends=depends_on, when=when, python_platlib="lib",
             run_after=lambda phase, when: (lambda method: method),
             python=types.SimpleNamespace(path="python"))
-        with mock.patch.dict(sys.modules, {"spack": types.ModuleType("spack"), "spack.package": fake}):
+        cmake = types.ModuleType("spack_repo.builtin.build_systems.cmake")
+        cmake.CMakePackage = CMakePackage  # Spack's API 2 has it here and no longer in spack.package
+        packages = ["spack", "spack_repo", "spack_repo.builtin", "spack_repo.builtin.build_systems"]
+        modules = {name: types.ModuleType(name) for name in packages}
+        with mock.patch.dict(sys.modules, {**modules, "spack.package": fake, cmake.__name__: cmake}):
             scope_of_recipe = {"__file__": str(RECIPE)}
             exec(compile(RECIPE.read_text(encoding="utf-8"), RECIPE, "exec"), scope_of_recipe)  # pylint: disable=exec-used
         self.package = scope_of_recipe["Reckon"]
@@ -101,6 +107,13 @@ class SpackRecipe(unittest.TestCase):
     def test_asks_for_the_cmake_that_the_project_asks_for(self):
         least = re.search(r"cmake_minimum_required\(VERSION ([\d.]+)\)", self.cmake).group(1)
         self.assertIn(f'depends_on("cmake@{least}:"', RECIPE.read_text(encoding="utf-8"))
+
+    def test_lies_where_the_package_api_looks_for_it(self):
+        facts = (REPOSITORY / "repo.yaml").read_text(encoding="utf-8")
+        self.assertIn("api: v2.0\n", facts)
+        namespace = re.search(r"namespace: (\w+)\n", facts).group(1)
+        self.assertEqual((REPOSITORY.name, REPOSITORY.parent.name), (namespace, "spack_repo"))
+        self.assertEqual(RECIPE.parent.name.replace("_", "").lower(), self.recipe.package.__name__.lower())
 
     def test_builds_the_checkout_it_lies_in(self):
         self.assertEqual(self.recipe.package.git, ROOT.as_uri())

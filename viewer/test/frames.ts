@@ -22,6 +22,7 @@ export function frameOf(
   walls: ContactGiven[] = [],
   wallDisplacement: number[] = [],
   membrane: { position: number[]; corners: number[] } = { position: [], corners: [] },
+  cell: { shift: number[]; corners: number[] } = { shift: [], corners: [] },
 ): Frame {
   const contacts = [...pairs, ...walls];
   const radii = Float32Array.from(grains, ({ radius }) => radius ?? 1);
@@ -44,6 +45,8 @@ export function frameOf(
     wall_displacement: Float32Array.from(wallDisplacement),
     membrane_position: Float32Array.from(membrane.position),
     membrane_corners: Uint32Array.from(membrane.corners),
+    cell_shift: Float32Array.from(cell.shift),
+    cell_corners: Float32Array.from(cell.corners),
   };
   const text: FrameText = { step: 1, time: 0.5, has_contacts: true, pairs: pairs.length };
   return new Frame(new Piece(text, new Map(Object.entries(arrays))));

@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { boundsOf, clipped, wallLines } from "../src/grains/outlines.ts";
+import { cellLines } from "../src/grains/cell.ts";
 import { merged } from "../src/grains/merged.ts";
 import { Detail, Pace } from "../src/grains/pace.ts";
 import { firstHit, pickGrain, turned } from "../src/grains/pick.ts";
@@ -200,4 +201,30 @@ test("a mould is not drawn where the membrane has taken its place", () => {
   assert.ok(wallLines(walls, frameOf(grains)).length > 100);
   const triangle = { position: [0, 0, 0, 1, 0, 0, 0, 1, 0], corners: [0, 1, 2] };
   assert.equal(wallLines(walls, frameOf(grains, [], [], [], triangle)).length, 0);
+});
+
+test("a leaning cell shows as twelve edges, four along each of its own", () => {
+  const edges = [[2, 0, 0], [0.8, 3, 0], [0.1, 0.2, 4]];
+  const corners = Array.from({ length: 8 }, (_, n) =>
+    [0, 1, 2].map((axis) => edges.reduce((sum, edge, k) => sum + (n & (1 << k) ? edge[axis] : 0), -1)),
+  );
+  const frame = frameOf([], [], [], [], undefined, { shift: [], corners: corners.flat() });
+  const lines = cellLines(frame);
+  assert.equal(lines.length, 12 * 6);
+  const found = edges.map(() => 0);
+  const along = (line: number, axis: number) => lines[6 * line + 3 + axis] - lines[6 * line + axis];
+  for (let line = 0; line < 12; ++line) {
+    const edge = edges.findIndex((e) => e.every((value, axis) => Math.abs(along(line, axis) - value) < 1e-5));
+    assert.ok(edge >= 0);
+    ++found[edge];
+  }
+  assert.deepEqual(found, [4, 4, 4]);
+  assert.equal(cellLines(frameOf([])).length, 0);
+});
+
+test("a grain that is drawn across the border has come no farther than its own way", () => {
+  const grain = (x: number) => [{ id: 0, position: [x, 0, 0] as [number, number, number] }];
+  const start = frameOf(grain(0.9), [], [], [], undefined, { shift: [0, 0, 0], corners: [] });
+  const now = frameOf(grain(-0.9), [], [], [], undefined, { shift: [2, 0, 0], corners: [] });
+  near(displacement(now, start, 0), 0.2);
 });

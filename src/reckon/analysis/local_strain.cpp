@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reckon/analysis/delaunay.hpp"
+#include "reckon/math/inverse.hpp"
 #include "reckon/math/portable.hpp"
 #include "reckon/math/symmetric_eigen.hpp"
 
@@ -17,13 +18,6 @@ namespace {
 Mat3 edges(const Tetrahedron& cell, std::span<const Vec3> points) {
   const Vec3& first = points[cell[0]];
   return transpose({points[cell[1]] - first, points[cell[2]] - first, points[cell[3]] - first});
-}
-
-double determinant(const Mat3& m) { return dot(m.row_x, cross(m.row_y, m.row_z)); }
-
-Mat3 inverse(const Mat3& m) {
-  return 1 / determinant(m) *
-         transpose({cross(m.row_y, m.row_z), cross(m.row_z, m.row_x), cross(m.row_x, m.row_y)});
 }
 
 double longest_edge_of(const Tetrahedron& cell, std::span<const Vec3> points) {

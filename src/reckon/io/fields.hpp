@@ -36,13 +36,19 @@ struct FieldsAtStep {
   std::vector<ContactRecord> contacts;  ///< see Simulation::contacts
   std::vector<Vec3> wall_displacement;  ///< by wall, since time zero [m]
   std::optional<MembraneAtStep> membrane;
+  std::optional<PeriodicCell> cell;  ///< that the grains were put into
+  std::vector<Vec3> cell_shift;      ///< by row, from there to where the grain's own way led it [m]
 };
+
+/// Takes the image of each grain that is in the cell, as it moves there.
+void put_into(const PeriodicCell& cell, FieldsAtStep& fields);
 
 /// Writes one point per grain, by id: `id`, `shape`, `radius` (of the bounding sphere),
 /// `equivalent_radius` (of the sphere of equal volume), `mass`, `orientation` (quaternion w, x, y,
 /// z, body to world), `velocity` and `angular_velocity` (world frame, half a step before),
-/// `speed`, `prescribed`, `contacts` (touching partners, walls included), `contact_force` (net)
-/// and, where asked for, `rank`. Data of the whole file: `TimeValue` and `wall_displacement`.
+/// `speed`, `prescribed`, `contacts` (touching partners, walls included), `contact_force` (net),
+/// in a periodic cell `cell_shift` (what leads to the grain's own way) and, where asked for,
+/// `rank`. Data of the whole file: `TimeValue` and `wall_displacement`.
 void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& fields,
                         std::span<const ShapeSummary> shapes, double density);
 
@@ -52,11 +58,12 @@ void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& f
 void write_contact_lines(const std::filesystem::path& path, std::span<const ContactRecord> contacts,
                          double time);
 
-/// Takes the image of each grain that is in the cell, as it moves there.
-void put_into(const PeriodicCell& cell, std::span<GrainState> grains);
-
 /// Writes the membrane's triangles, with `displacement`, `velocity` and `contact_force` per node.
 void write_membrane(const std::filesystem::path& path, const MembraneAtStep& membrane, double time);
+
+/// Writes the edges of a periodic cell as lines between its eight corners, the one at corner n half
+/// of edge a, b or c ahead of the centre where bit 0, 1 or 2 of n is set, else behind.
+void write_cell(const std::filesystem::path& path, const PeriodicCell& cell, double time);
 
 /// Writes the walls as polygons (io/wall_surfaces.hpp), with `wall` (its place in the scene),
 /// `displacement` since time zero and `force` of all grains on it. The mould of a membrane that is

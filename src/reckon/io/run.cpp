@@ -267,7 +267,7 @@ class Session {
     fields.time = simulation_.time();
     fields.contacts = simulation_.contacts();
     fields.grains = simulation_.grain_states();
-    if (const PeriodicCell* cell = simulation_.cell()) put_into(*cell, fields.grains);
+    if (const PeriodicCell* cell = simulation_.cell()) put_into(*cell, fields);
     if (config_.output.ranks) fields.ranks = ranks_of_grains(simulation_.grains().id, ranks_);
     for (const WallPose& pose : simulation_.wall_contacts().poses()) {
       fields.wall_displacement.push_back(pose.displacement);

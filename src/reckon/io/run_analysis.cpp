@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "reckon/analysis/force_distribution.hpp"
+#include "reckon/analysis/images_in_cell.hpp"
 #include "reckon/analysis/local_strain.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
@@ -61,6 +62,20 @@ std::vector<Vec3> places(const SavedFields& fields) {
   return found;
 }
 
+GrainsOfCell in_cell(const SavedFields& fields) {
+  GrainsOfCell found{.positions = places(fields), .shifts = {}, .edges = {}};
+  for (const SavedGrain& grain : fields.grains) found.shifts.push_back(grain.cell_shift);
+  const auto& corner = fields.cell_corners;
+  found.edges = transpose({corner[1] - corner[0], corner[2] - corner[0], corner[4] - corner[0]});
+  return found;
+}
+
+/// Where the grains at the start are now: in a periodic cell, their images that were in it then.
+std::vector<Vec3> places_later(const SavedFields& start, const SavedFields& now) {
+  const bool in_a_cell = !start.cell_corners.empty() && !now.cell_corners.empty();
+  return in_a_cell ? images_later(in_cell(start), in_cell(now)) : places(now);
+}
+
 /// The angle between two orientations [deg].
 double turn_between(const Quaternion& a, const Quaternion& b) {
   const double cosine = std::abs(a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z);
@@ -87,7 +102,8 @@ StrainSummary summary_of(std::uint64_t step, const std::vector<LocalStrain>& str
 }
 
 void write_strain(const std::filesystem::path& path, const SavedFields& start,
-                  const SavedFields& now, const std::vector<LocalStrain>& strains) {
+                  const SavedFields& now, const std::vector<Vec3>& later,
+                  const std::vector<LocalStrain>& strains) {
   std::vector<Vec3> position;
   std::vector<Vec3> displacement;
   std::vector<std::uint32_t> id;
@@ -99,7 +115,7 @@ void write_strain(const std::filesystem::path& path, const SavedFields& start,
   for (std::size_t n = 0; n < now.grains.size(); ++n) {
     const SavedGrain& grain = now.grains[n];
     position.push_back(grain.position);
-    displacement.push_back(grain.position - start.grains[n].position);
+    displacement.push_back(later[n] - start.grains[n].position);
     id.push_back(grain.id.get());
     shear.push_back(strains[n].shear);
     volumetric.push_back(strains[n].volumetric);
@@ -140,7 +156,9 @@ std::string distribution_lines(const SavedFields& fields, double width) {
 
 }  // namespace
 
-RunAnalysis analyse_run(const RunFolder& folder, const AnalysisOptions& options) {
+RunAnalysis analyse_run(
+    const RunFolder& folder, const AnalysisOptions& options,
+    const std::function<void(std::size_t done, std::size_t total)>& progressed) {
   const std::vector<std::uint64_t> saved = folder.field_steps("grains");
   if (saved.empty()) refuse(folder, "no fields were saved here", "Name the folder of a run.");
   RunAnalysis done;
@@ -155,6 +173,8 @@ RunAnalysis analyse_run(const RunFolder& folder, const AnalysisOptions& options)
   const double longest = options.longest_edge.value_or(diameters * diameter);
   std::string forces;
   if (start.has_contacts) forces = distribution_lines(start, options.bin_width);
+  const auto later_steps = static_cast<std::size_t>(
+      saved.end() - std::upper_bound(saved.begin(), saved.end(), done.from));
   std::vector<PvdEntry> entries;
   for (const std::uint64_t step : saved) {
     if (step <= done.from) continue;
@@ -166,11 +186,13 @@ RunAnalysis analyse_run(const RunFolder& folder, const AnalysisOptions& options)
       refuse(folder, fmt::format("steps {} and {} have not the same grains", done.from, step),
              "Strains need all grains to stay; start after some have left.");
     }
-    const std::vector<LocalStrain> strains = local_strain(before, places(now), longest);
-    write_strain(folder.root() / RunFolder::field_name("strain", step), start, now, strains);
+    const std::vector<Vec3> later = places_later(start, now);
+    const std::vector<LocalStrain> strains = local_strain(before, later, longest);
+    write_strain(folder.root() / RunFolder::field_name("strain", step), start, now, later, strains);
     entries.push_back({now.time, RunFolder::field_name("strain", step), {}});
     done.strains.push_back(summary_of(step, strains));
     if (now.has_contacts) forces += distribution_lines(now, options.bin_width);
+    if (progressed) progressed(entries.size(), later_steps);
   }
   if (entries.empty()) {
     refuse(folder, fmt::format("no step was saved after {}", done.from),

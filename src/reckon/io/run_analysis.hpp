@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -35,7 +36,9 @@ struct RunAnalysis {
 /// Looks at the saved fields of a run. Writes, per saved step after `from`, the local strain around
 /// each grain and how far it turned, for ParaView, and for every saved step from there on the
 /// distribution of the forces between grains. Throws Error where the run has not saved two steps,
-/// not that of `from`, or other grains at one than at the other.
-RunAnalysis analyse_run(const RunFolder& folder, const AnalysisOptions& options);
+/// not that of `from`, or other grains at one than at the other. `progressed` is told of the steps.
+RunAnalysis analyse_run(
+    const RunFolder& folder, const AnalysisOptions& options,
+    const std::function<void(std::size_t done, std::size_t total)>& progressed = {});
 
 }  // namespace reckon

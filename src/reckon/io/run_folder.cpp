@@ -18,7 +18,8 @@
 namespace reckon {
 namespace {
 
-constexpr std::array field_kinds{"grains", "contacts", "surfaces", "membrane", "walls", "strain"};
+constexpr std::array field_kinds{"grains", "contacts", "surfaces", "membrane",
+                                 "walls",  "cell",     "strain"};
 
 /// Steps of all files "PREFIX<digits>SUFFIX" in a folder, ascending.
 std::vector<std::uint64_t> numbered_files(const std::filesystem::path& folder,

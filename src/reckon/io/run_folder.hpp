@@ -15,7 +15,7 @@ namespace reckon {
 ///   scene.toml            the scene as given, to the letter
 ///   scene_resolved.toml   the same with every default and the time step filled in
 ///   history.csv           tables over time
-///   grains.pvd contacts.pvd walls.pvd membrane.pvd surfaces.pvd     ParaView: open these
+///   grains.pvd contacts.pvd walls.pvd membrane.pvd cell.pvd surfaces.pvd     ParaView: open these
 ///   fields/grains_0000001000.vtp ...            what they list
 ///   checkpoints/step_0000001000.h5 ...
 ///   run.json run.log      what ran, where, how long
@@ -36,7 +36,8 @@ class RunFolder {
   [[nodiscard]] std::filesystem::path report() const { return root_ / "report.html"; }
   [[nodiscard]] std::filesystem::path paraview() const { return root_ / "paraview"; }
   [[nodiscard]] std::filesystem::path index(std::string_view kind) const;
-  /// `kind` is grains, contacts, walls, membrane or surfaces; the name is relative to the root.
+  /// `kind` is grains, contacts, walls, membrane, cell, surfaces or strain; the name is relative to
+  /// the root.
   [[nodiscard]] static std::string field_name(std::string_view kind, std::uint64_t step);
   [[nodiscard]] std::filesystem::path checkpoint(std::uint64_t step) const;
 

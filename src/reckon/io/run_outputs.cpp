@@ -42,6 +42,7 @@ RunOutputs::RunOutputs(RunFolder folder, const LoadedScene& scene, const Prepare
   take_over("surfaces", *resumed_at, surfaces_);
   take_over("membrane", *resumed_at, membrane_);
   take_over("walls", *resumed_at, wall_polygons_);
+  take_over("cell", *resumed_at, cell_);
   if (schedule_.history_due(*resumed_at)) last_row_ = resumed_at;
   if (schedule_.fields_due(*resumed_at)) last_frame_ = resumed_at;
 }
@@ -74,6 +75,10 @@ void RunOutputs::write_fields(const FieldsAtStep& fields) {
   if (!walls_.empty()) {
     write_walls(file("walls"), fields, shapes_, walls_, mould_);
     add_to_index("walls", fields.step, wall_polygons_);
+  }
+  if (fields.cell) {
+    write_cell(file("cell"), *fields.cell, fields.time);
+    add_to_index("cell", fields.step, cell_);
   }
   last_frame_ = fields.step;
 }

@@ -51,6 +51,7 @@ class RunOutputs {
   std::vector<PvdEntry> surfaces_;
   std::vector<PvdEntry> membrane_;
   std::vector<PvdEntry> wall_polygons_;
+  std::vector<PvdEntry> cell_;
   std::vector<TriangleMesh> surface_meshes_;  // made when first needed
   std::optional<std::uint64_t> last_row_;
   std::optional<std::uint64_t> last_frame_;

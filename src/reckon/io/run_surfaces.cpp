@@ -15,6 +15,7 @@
 #include "reckon/io/fields.hpp"
 #include "reckon/io/saved_fields.hpp"
 #include "reckon/io/scene_reader.hpp"
+#include "reckon/simulation/setup.hpp"
 
 namespace reckon {
 
@@ -37,7 +38,22 @@ ShapeCatalog shapes_of(const Checkpoint& checkpoint, const std::string& place) {
   return catalog;
 }
 
-SurfaceFiles write_run_surfaces(const RunFolder& folder, std::optional<std::uint64_t> step) {
+FieldsAtStep fields_of(Checkpoint checkpoint) {
+  FieldsAtStep fields{.step = checkpoint.state.step,
+                      .time = static_cast<double>(checkpoint.state.step) * checkpoint.time_step};
+  fields.grains = std::move(checkpoint.state.grains);
+  if (const auto& cell = checkpoint.state.cell) {
+    const CellConfig config = read_scene_text(checkpoint.scene, "/").config.cell.value();
+    put_into(
+        {0.5 * (config.box.low + config.box.high), periodic_axes(config), cell->edges, cell->rates},
+        fields);
+  }
+  return fields;
+}
+
+SurfaceFiles write_run_surfaces(
+    const RunFolder& folder, std::optional<std::uint64_t> step,
+    const std::function<void(std::size_t done, std::size_t total)>& progressed) {
   const std::string place = folder.root().string();
   std::vector<std::uint64_t> steps = folder.checkpoint_steps();
   if (step) {
@@ -58,6 +74,7 @@ SurfaceFiles write_run_surfaces(const RunFolder& folder, std::optional<std::uint
   std::vector<TriangleMesh> surfaces;
   std::vector<ShapeSummary> summaries;
   double time_step = 0;
+  std::size_t done = 0;
   double density = 0;
   for (const std::uint64_t at : steps) {
     Checkpoint checkpoint = read_checkpoint(folder.checkpoint(at));
@@ -71,13 +88,13 @@ SurfaceFiles write_run_surfaces(const RunFolder& folder, std::optional<std::uint
       density = read_scene_text(checkpoint.scene, "/").config.material.density;
     }
     time_step = checkpoint.time_step;
-    FieldsAtStep fields{.step = at, .time = static_cast<double>(at) * time_step};
-    fields.grains = std::move(checkpoint.state.grains);
+    FieldsAtStep fields = fields_of(std::move(checkpoint));
     fields.has_contacts =
         std::filesystem::exists(folder.root() / RunFolder::field_name("contacts", at));
     if (fields.has_contacts) fields.contacts = read_fields(folder, at).contacts;
     write_grain_surfaces(folder.root() / RunFolder::field_name("surfaces", at), fields, summaries,
                          density, surfaces);
+    if (progressed) progressed(++done, steps.size());
   }
   std::vector<PvdEntry> entries;
   for (const std::uint64_t at : folder.field_steps("surfaces")) {

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "reckon/avatar/shape_catalog.hpp"
 #include "reckon/io/checkpoint.hpp"
+#include "reckon/io/fields.hpp"
 #include "reckon/io/run_folder.hpp"
 
 namespace reckon {
@@ -18,6 +20,9 @@ namespace reckon {
 /// messages. Throws Error when they are gone or have changed.
 [[nodiscard]] ShapeCatalog shapes_of(const Checkpoint& checkpoint, const std::string& place);
 
+/// The grains of a checkpoint as fields show them: in a periodic cell, their images in the cell.
+[[nodiscard]] FieldsAtStep fields_of(Checkpoint checkpoint);
+
 struct SurfaceFiles {
   std::size_t written{0};
   std::filesystem::path index;  ///< of all surface files of the run
@@ -25,7 +30,9 @@ struct SurfaceFiles {
 
 /// Writes the grains' true surfaces at the checkpoints of a run, or at one of them, and an index of
 /// all surface files there. Throws Error when the run, its shape library or that step is missing,
-/// or when the library is no longer the one that ran.
-SurfaceFiles write_run_surfaces(const RunFolder& folder, std::optional<std::uint64_t> step);
+/// or when the library is no longer the one that ran. `progressed` is told of the checkpoints.
+SurfaceFiles write_run_surfaces(
+    const RunFolder& folder, std::optional<std::uint64_t> step,
+    const std::function<void(std::size_t done, std::size_t total)>& progressed = {});
 
 }  // namespace reckon

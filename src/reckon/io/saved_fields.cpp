@@ -76,13 +76,15 @@ void read_grains(const std::filesystem::path& path, SavedFields& fields) {
   const Column velocity = column("velocity", 3);
   const Column angular_velocity = column("angular_velocity", 3);
   const Column touching = column("contacts", 1);
+  std::optional<Column> shift;  // only in a periodic cell
+  if (file.has(VtkSection::point_data, "cell_shift")) shift.emplace(column("cell_shift", 3));
   fields.grains.reserve(rows);
   for (std::size_t row = 0; row < rows; ++row) {
-    fields.grains.push_back({GrainId{id.whole(row)}, ShapeId{shape.whole(row)},
-                             prescribed.whole(row) != 0, radius.number(row),
-                             equivalent_radius.number(row), mass.number(row), position.vector(row),
-                             orientation.quaternion(row), velocity.vector(row),
-                             angular_velocity.vector(row), touching.whole(row)});
+    fields.grains.push_back(
+        {GrainId{id.whole(row)}, ShapeId{shape.whole(row)}, prescribed.whole(row) != 0,
+         radius.number(row), equivalent_radius.number(row), mass.number(row), position.vector(row),
+         orientation.quaternion(row), velocity.vector(row), angular_velocity.vector(row),
+         touching.whole(row), shift ? shift->vector(row) : Vec3{}});
     if (row > 0 && fields.grains[row - 1].id >= fields.grains[row].id) {
       refuse(path, "grains are not in the order of their ids");
     }
@@ -149,6 +151,15 @@ void read_membrane(const std::filesystem::path& path, SavedFields& fields) {
   }
 }
 
+void read_cell(const std::filesystem::path& path, SavedFields& fields) {
+  constexpr std::size_t corners = 8;
+  const VtkReader file{path};
+  const Column places{file, path, VtkSection::points, "Points", 3, corners};
+  for (std::size_t corner = 0; corner < corners; ++corner) {
+    fields.cell_corners.push_back(places.vector(corner));
+  }
+}
+
 }  // namespace
 
 SavedFields read_fields(const RunFolder& folder, std::uint64_t step) {
@@ -160,6 +171,8 @@ SavedFields read_fields(const RunFolder& folder, std::uint64_t step) {
   if (fields.has_contacts) read_contacts(contacts, fields);
   const std::filesystem::path membrane = folder.root() / RunFolder::field_name("membrane", step);
   if (std::filesystem::exists(membrane)) read_membrane(membrane, fields);
+  const std::filesystem::path cell = folder.root() / RunFolder::field_name("cell", step);
+  if (std::filesystem::exists(cell)) read_cell(cell, fields);
   return fields;
 }
 

@@ -18,11 +18,12 @@ struct SavedGrain {
   double radius{0};             ///< of the bounding sphere [m]
   double equivalent_radius{0};  ///< of the sphere of equal volume [m]
   double mass{0};               ///< [kg]
-  Vec3 position;                ///< [m]
+  Vec3 position;                ///< in the cell, where there is one [m]
   Quaternion orientation;       ///< body to world
   Vec3 velocity;                ///< half a step before [m/s]
   Vec3 angular_velocity;        ///< world frame, half a step before [rad/s]
   std::uint32_t touching{0};    ///< partners, walls included
+  Vec3 cell_shift;              ///< from there to where its own way led it; see PeriodicCell [m]
 };
 
 /// The assembly at one saved step.
@@ -35,6 +36,7 @@ struct SavedFields {
   std::vector<Vec3> wall_displacement;  ///< by wall, since time zero; empty where not known [m]
   std::vector<Vec3> membrane_places;    ///< of its nodes; empty while it is not in place [m]
   std::vector<std::uint32_t> membrane_corners;  ///< three nodes for each triangle
+  std::vector<Vec3> cell_corners;  ///< of the periodic cell, see write_cell; or none [m]
 };
 
 /// Reads the ParaView files that a run wrote at `step`. Throws Error when there are none, or when

@@ -39,14 +39,20 @@ void add_piece(std::string& page, const std::string& name, const std::string& pi
 
 }  // namespace
 
-std::string report_page(std::span<const RunFolder> runs, const PageLimits& limits) {
+std::string report_page(
+    std::span<const RunFolder> runs, const PageLimits& limits,
+    const std::function<void(std::size_t done, std::size_t total)>& progressed) {
   const Halves around = halves();
   std::string page{around.before};
+  std::size_t total = 0;
+  for (const RunFolder& run : runs) total += RunPieces{run, limits}.frame_steps().size();
+  std::size_t done = 0;
   for (std::size_t run = 0; run < runs.size(); ++run) {
     RunPieces pieces{runs[run], limits};
     add_piece(page, fmt::format("{}/head", run), pieces.head());
     for (const std::uint64_t step : pieces.frame_steps()) {
       add_piece(page, fmt::format("{}/frame/{}", run, step), pieces.frame(step));
+      if (progressed) progressed(++done, total);
     }
   }
   page += around.after;

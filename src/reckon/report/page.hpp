@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,9 +15,12 @@ namespace reckon {
 /// The page without data, as `viewer/` makes it, or nothing where this program was built without.
 [[nodiscard]] std::string_view viewer_page();
 
-/// The page with the data of these runs in it: one file that needs nothing else. Throws Error when
-/// a folder holds no run, or where this program was built without the page.
-[[nodiscard]] std::string report_page(std::span<const RunFolder> runs, const PageLimits& limits);
+/// The page with the data of these runs in it: one file that needs nothing else. `progressed` is
+/// told of how many saved times it has so far, of how many. Throws Error when a folder holds no
+/// run, or where this program was built without the page.
+[[nodiscard]] std::string report_page(
+    std::span<const RunFolder> runs, const PageLimits& limits,
+    const std::function<void(std::size_t done, std::size_t total)>& progressed = {});
 
 /// The page that asks the server it came from for its data (report/watch_server.hpp).
 [[nodiscard]] std::string live_page();

@@ -17,15 +17,19 @@ counted_from = @counted_from@  # [s]: displacement and rotation count from this 
 # ParaView's window does not tell a script where it lies; then the run must be where it was.
 folder = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) if "__file__" in globals() else @folder@
 
-# Of a grain now against where it was, by id. Grains leave, but none comes later.
+# Of a grain now against where it was, by id. Grains leave, but none comes later. In a periodic cell its own way counts,
+# not the jumps of the image that is drawn.
 since_start = """
 import numpy as np
+def ways(grains):
+    shift = grains.PointData["cell_shift"] if "cell_shift" in grains.PointData.keys() else 0
+    return np.asarray(grains.Points) + np.asarray(shift)
 now, start = inputs[0], inputs[1]
 ids = np.asarray(now.PointData["id"])
 start_ids = np.asarray(start.PointData["id"])
 row = np.minimum(np.searchsorted(start_ids, ids), len(start_ids) - 1)
 known = start_ids[row] == ids
-moved = np.asarray(now.Points) - np.asarray(start.Points)[row]
+moved = ways(now) - ways(start)[row]
 moved[~known] = 0
 cosine = np.abs((np.asarray(now.PointData["orientation"]) * np.asarray(start.PointData["orientation"])[row]).sum(axis=1))
 turned = 2 * np.degrees(np.arccos(np.minimum(cosine, 1)))
@@ -99,7 +103,12 @@ def colour(shown, view, kind, field, title, preset):
     shown.SetScalarBarVisibility(view, True)
 
 
-def draw_boundary(walls, membrane, view):
+def draw_boundary(walls, membrane, cell, view):
+    if cell:
+        shown = Show(cell, view)
+        shown.ColorArrayName = [None, ""]
+        shown.AmbientColor = shown.DiffuseColor = [0.12, 0.37, 0.55]
+        shown.LineWidth = 2
     if walls:
         shown = Show(walls, view)
         shown.ColorArrayName = [None, ""]
@@ -151,6 +160,7 @@ def draw(arguments):
 
     grains = series("grains")
     contacts, membrane, walls, surfaces = series("contacts"), series("membrane"), series("walls"), series("surfaces")
+    cell = series("cell")
     shapes_file = os.path.join(folder, "paraview", "shapes.vtm")
     shapes = None
     if os.path.exists(shapes_file):
@@ -176,7 +186,7 @@ def draw(arguments):
              "angular_velocity": " [rad/s]", "contact_force": " [N]", "mass": " [kg]", "radius": " [m]",
              "equivalent_radius": " [m]"}
     colour(main, left, "POINTS", field, field.replace("_", " ") + units.get(field, ""), "Viridis (matplotlib)")
-    draw_boundary(walls, membrane, left)
+    draw_boundary(walls, membrane, cell, left)
     views = [left]
 
     if contacts:
@@ -184,7 +194,7 @@ def draw(arguments):
         chains = Show(force_chains(contacts, time, size), right)
         if contacts.GetDataInformation().GetNumberOfCells() > 0:
             colour(chains, right, "POINTS", "force_magnitude", "contact force [N]", "Viridis (matplotlib)")
-        draw_boundary(walls, membrane, right)
+        draw_boundary(walls, membrane, cell, right)
         views.append(right)
 
     # More to look at, with a click on its eye: velocities as arrows, the surfaces as triangles for cuts and filters.

@@ -203,6 +203,7 @@ std::string RunPieces::head() {
   json.value("log", text_of(folder_.log()));
   add_history(folder_, scene, limits_.history_rows, piece);
   add_walls(scene, json);
+  json.value("cell", scene.cell.has_value());
 
   const std::vector<std::uint64_t> all = folder_.field_steps("grains");
   json.value("saved_frames", all.size());
@@ -228,6 +229,7 @@ std::string RunPieces::frame(std::uint64_t step) const {
   std::vector<float> radius;
   std::vector<float> equivalent_radius;
   std::vector<float> mass;
+  std::vector<float> cell_shift;
   const auto append = [](std::vector<float>& to, const Vec3& v) {
     for (int axis = 0; axis < 3; ++axis) to.push_back(static_cast<float>(v[axis]));
   };
@@ -243,6 +245,7 @@ std::string RunPieces::frame(std::uint64_t step) const {
     radius.push_back(static_cast<float>(grain.radius));
     equivalent_radius.push_back(static_cast<float>(grain.equivalent_radius));
     mass.push_back(static_cast<float>(grain.mass));
+    if (!fields.cell_corners.empty()) append(cell_shift, grain.cell_shift);
   }
   std::vector<std::uint32_t> ends;  // rows of two grains, or of a grain and the number of a wall
   std::vector<float> force;
@@ -267,6 +270,8 @@ std::string RunPieces::frame(std::uint64_t step) const {
 
   std::vector<float> membrane;
   for (const Vec3& place : fields.membrane_places) append(membrane, place);
+  std::vector<float> cell;
+  for (const Vec3& corner : fields.cell_corners) append(cell, corner);
 
   Piece piece;
   piece.json().value("step", fields.step);
@@ -283,6 +288,7 @@ std::string RunPieces::frame(std::uint64_t step) const {
   piece.add("radius", radius);
   piece.add("equivalent_radius", equivalent_radius);
   piece.add("mass", mass);
+  piece.add("cell_shift", cell_shift, 3);
   piece.add("ends", ends, 2);
   piece.add("force", force, 3);
   piece.add("branch", branch, 3);
@@ -291,6 +297,7 @@ std::string RunPieces::frame(std::uint64_t step) const {
   piece.add("wall_displacement", walls, 3);
   piece.add("membrane_position", membrane, 3);
   piece.add("membrane_corners", fields.membrane_corners, 3);
+  piece.add("cell_corners", cell, 3);
   return piece.finish();
 }
 

@@ -4,7 +4,11 @@
 #include <cmath>
 
 #include "reckon/core/vtk_reader.hpp"
+#include "reckon/io/checkpoint.hpp"
 #include "reckon/io/history.hpp"
+#include "reckon/io/run_analysis.hpp"
+#include "reckon/io/run_surfaces.hpp"
+#include "reckon/io/saved_fields.hpp"
 #include "unit/io/run_scene_fixture.hpp"
 
 namespace reckon {
@@ -108,6 +112,57 @@ TEST_F(CellRunTest, FieldsShowGrainsInTheCell) {
     const Vec3 line{ends[n] - ends[n + 3], ends[n + 1] - ends[n + 4], ends[n + 2] - ends[n + 5]};
     EXPECT_LT(norm(line), 0.0022);
   }
+}
+
+/// The box that is drawn is the one that the history tells of, and leads from images to own ways.
+TEST_F(CellRunTest, FieldsHaveTheCellAndTheGrainsOwnWays) {
+  (void)run(scene(), {.folder = root_ / "whole"});
+  const RunFolder folder{root_ / "whole"};
+  const std::uint64_t end = folder.field_steps("cell").back();
+  const SavedFields fields = read_fields(folder, end);
+  ASSERT_EQ(fields.cell_corners.size(), 8U);
+  const auto& corner = fields.cell_corners;
+  EXPECT_DOUBLE_EQ((corner[1] - corner[0]).x, column("cell_edge_x_m").back());
+  EXPECT_DOUBLE_EQ((corner[2] - corner[0]).x, column("cell_lean_xy_m").back());
+  EXPECT_DOUBLE_EQ((corner[4] - corner[0]).z, column("cell_edge_z_m").back());
+  EXPECT_LT(norm(0.5 * (corner[0] + corner[7]) - Vec3{0.005, 0.005, 0.005}), 1e-15);
+  const Checkpoint checkpoint =
+      read_checkpoint(folder.checkpoint(folder.checkpoint_steps().back()));
+  ASSERT_EQ(checkpoint.state.step, end);
+  std::size_t elsewhere = 0;
+  for (std::size_t n = 0; n < fields.grains.size(); ++n) {
+    const SavedGrain& grain = fields.grains[n];
+    if (grain.cell_shift != Vec3{}) ++elsewhere;
+    EXPECT_LT(norm(grain.position + grain.cell_shift - checkpoint.state.grains[n].position), 1e-15);
+  }
+  EXPECT_GT(elsewhere, 0U);
+}
+
+/// Simple shear by 0.2 is the strain of nearly every grain, those that cross the border included.
+TEST_F(CellRunTest, LocalStrainsDoNotJumpAtTheBorder) {
+  (void)run(scene(), {.folder = root_ / "whole"});
+  const double shear = column("cell_shear_xy").back() / std::sqrt(3.0);
+  const RunAnalysis found = analyse_run(RunFolder{root_ / "whole"}, {});
+  EXPECT_EQ(found.from, 1300U);
+  EXPECT_GT(found.strains.back().shear, 0.7 * shear);
+  EXPECT_LT(found.strains.back().largest, 2.5 * shear);
+}
+
+/// Surfaces made later from a checkpoint are those of the run itself, also beyond a border.
+TEST_F(CellRunTest, SurfacesStandInTheCell) {
+  (void)run(scene(), {.folder = root_ / "whole", .steps = 1300});
+  const RunFolder folder{root_ / "whole"};
+  (void)write_run_surfaces(folder, 1300);
+  const auto points = [&](const char* kind) {
+    const VtkReader file{folder.root() / RunFolder::field_name(kind, 1300)};
+    return file.numbers(VtkSection::points, "Points", 3, file.tuples(VtkSection::points, "Points"));
+  };
+  const double reach = 0.5 * column("cell_edge_x_m").back() + 0.0013;
+  const auto places = points("surfaces");
+  EXPECT_GT(places.size(), 48U * 100);
+  const auto [low, high] = std::minmax_element(places.begin(), places.end());
+  EXPECT_GT(*low, 0.005 - reach);
+  EXPECT_LT(*high, 0.005 + reach);
 }
 
 TEST_F(CellRunTest, FaultsAreFound) {

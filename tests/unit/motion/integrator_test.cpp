@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
+
+#include "support/verification_table.hpp"
 
 namespace reckon {
 namespace {
@@ -46,7 +49,11 @@ TEST(Integrator, DampingDecaysAtTheSetRate) {
   const double dt = 1e-4;
   const Inertia inertia{2, {0.5, 0.5, 0.5}};
   Grains grains = one_grain({1, -2, 0.5}, {4, 0, 0});
-  for (int n = 0; n < 5000; ++n) advance(grains, {}, inertia, xi, dt);
+  testing::VerificationTable table{"damping", "time_s,speed_over_start,closed_form"};
+  for (int n = 0; n < 5000; ++n) {
+    if (n % 250 == 0) table.row({n * dt, grains.velocity[0].x, std::exp(-xi * n * dt)});
+    advance(grains, {}, inertia, xi, dt);
+  }
   EXPECT_NEAR(grains.velocity[0].x, std::exp(-xi * 0.5), 1e-7);
   EXPECT_NEAR(grains.velocity[0].y, -2 * std::exp(-xi * 0.5), 2e-7);
   EXPECT_NEAR(grains.angular_velocity_body[0].x, 4 * std::exp(-xi * 0.5), 4e-7);
@@ -70,6 +77,10 @@ double symmetric_top_error(double dt) {
 }
 
 TEST(Integrator, SymmetricTopConvergesAtSecondOrder) {
+  testing::VerificationTable table{"symmetric_top", "steps_per_turn,angular_velocity"};
+  for (double dt = 4e-2; dt > 1e-3; dt /= 2) {
+    table.row({2 * std::numbers::pi / (1.5 * dt), symmetric_top_error(dt) / 3});
+  }
   const double coarse = symmetric_top_error(1e-2);
   const double fine = symmetric_top_error(5e-3);
   EXPECT_LT(coarse, 1e-3);
@@ -120,7 +131,12 @@ TEST(Integrator, TumblingKeepsMomentumAndEnergyAndFlipsOnTime) {
   std::vector<double> flips;
   double worst_momentum = 0;
   double worst_energy = 0;
+  testing::VerificationTable spins{"tumbling", "time_s,omega_1,omega_2,omega_3"};
   for (int n = 0; n < 600000; ++n) {
+    if (n % 500 == 0 && n < 200000) {
+      const Vec3& w = grains.angular_velocity_body[0];
+      spins.row({n * dt, w.x, w.y, w.z});
+    }
     const double before = grains.angular_velocity_body[0].y;
     advance(grains, {}, inertia, 0, dt);
     const double after = grains.angular_velocity_body[0].y;
@@ -131,6 +147,10 @@ TEST(Integrator, TumblingKeepsMomentumAndEnergyAndFlipsOnTime) {
   }
   ASSERT_GE(flips.size(), 8U);
   const double interval = (flips.back() - flips.front()) / static_cast<double>(flips.size() - 1);
+  testing::VerificationTable figures{"tumbling_figures",
+                                     "flips,interval_s,closed_form_s,momentum_error,energy_error"};
+  figures.row({static_cast<double>(flips.size()), interval, flip_interval(inertia.moments, start),
+               worst_momentum, worst_energy});
   EXPECT_NEAR(interval / flip_interval(inertia.moments, start), 1, 1e-5);
   EXPECT_LT(worst_momentum, 1e-8);
   EXPECT_LT(worst_energy, 1e-8);

@@ -26,6 +26,7 @@ export class Frame {
   readonly radius: Float32Array;
   readonly equivalentRadius: Float32Array;
   readonly mass: Float32Array;
+  readonly cellShift: Float32Array; // from a grain's image in the periodic cell to its own way; empty without
   readonly ends: Uint32Array;
   readonly force: Float32Array; // on the first end
   readonly branch: Float32Array; // from the first end's centre to the other's, or to the wall
@@ -34,6 +35,7 @@ export class Frame {
   readonly wallDisplacement: Float32Array;
   readonly membranePosition: Float32Array; // empty where there is none
   readonly membraneCorners: Uint32Array; // three nodes for each triangle
+  readonly cellCorners: Float32Array; // eight, of the periodic cell; empty where there is none
   private stresses: GrainStress | null = null;
 
   constructor(piece: Piece<FrameText>) {
@@ -51,6 +53,7 @@ export class Frame {
     this.radius = piece.array("radius") as Float32Array;
     this.equivalentRadius = piece.array("equivalent_radius") as Float32Array;
     this.mass = piece.array("mass") as Float32Array;
+    this.cellShift = piece.array("cell_shift") as Float32Array;
     this.ends = piece.array("ends") as Uint32Array;
     this.force = piece.array("force") as Float32Array;
     this.branch = piece.array("branch") as Float32Array;
@@ -59,6 +62,7 @@ export class Frame {
     this.wallDisplacement = piece.array("wall_displacement") as Float32Array;
     this.membranePosition = piece.array("membrane_position") as Float32Array;
     this.membraneCorners = piece.array("membrane_corners") as Uint32Array;
+    this.cellCorners = piece.array("cell_corners") as Float32Array;
   }
 
   get grains(): number {

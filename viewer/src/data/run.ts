@@ -82,6 +82,7 @@ export interface HeadText {
   columns: { name: string; meaning: string }[];
   findings: string;
   walls: Wall[];
+  cell: boolean; // periodic
   saved_frames: number;
   frames: number[];
   shapes_missing: string;

@@ -23,15 +23,16 @@ function length(vectors: Float32Array, row: number): number {
   return Math.hypot(vectors[3 * row], vectors[3 * row + 1], vectors[3 * row + 2]);
 }
 
+/** Where a grain's own way led it along an axis [m]: drawn is its image in the periodic cell. */
+function way(frame: Frame, row: number, axis: number): number {
+  return frame.position[3 * row + axis] + (frame.cellShift[3 * row + axis] ?? 0);
+}
+
 /** How far a grain has come since `start` [m]; NaN for one that was not there. */
 export function displacement(frame: Frame, start: Frame, row: number): number {
   const before = start.rowOf(frame.id[row]);
   if (before < 0) return Number.NaN;
-  return Math.hypot(
-    frame.position[3 * row] - start.position[3 * before],
-    frame.position[3 * row + 1] - start.position[3 * before + 1],
-    frame.position[3 * row + 2] - start.position[3 * before + 2],
-  );
+  return Math.hypot(...[0, 1, 2].map((axis) => way(frame, row, axis) - way(start, before, axis)));
 }
 
 /** The angle of the turn from the orientation in `start` to the one in `frame`, 0 to 180 [deg]. */

@@ -158,6 +158,7 @@ export class GrainSection {
     if (text.shapes_missing) {
       notes.push(`Grains are drawn as spheres of equal volume: ${text.shapes_missing}`);
     }
+    if (text.cell) notes.push("The dashed box is the periodic cell; displacements follow a grain across its border.");
     notes.push("Drag to turn, wheel to zoom, right-drag to move, click a grain for its numbers.");
     replace(this.note, notes.join(" "));
   }

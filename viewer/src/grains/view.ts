@@ -31,12 +31,14 @@ import type { Frame } from "../data/frame.ts";
 import type { Run } from "../data/run.ts";
 import type { Rgb } from "../colours.ts";
 import { boundsOf, wallLines } from "./outlines.ts";
+import { CellView } from "./cell.ts";
 import { listenToKeys, listenToPointer } from "./input.ts";
 import { MembraneView } from "./membrane.ts";
 import { Detail, Pace } from "./pace.ts";
 import { pickGrain } from "./pick.ts";
+import { geometryOf, paintCutsFlat } from "./solids.ts";
 import { StandIns } from "./stand_ins.ts";
-import { ball, type ShapeSurfaces, type Surface, unpackSurfaces } from "./surfaces.ts";
+import { ball, type ShapeSurfaces, unpackSurfaces } from "./surfaces.ts";
 
 export type GrainStyle = "solid" | "faint" | "hidden";
 export type Axis = "x" | "y" | "z";
@@ -51,24 +53,6 @@ export interface Slice {
 
 const pickedColour = 0xd81b60;
 const settleTime = 250; // [ms] after the last move until the fine ones come back
-
-function geometryOf(surface: Surface): BufferGeometry {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(surface.position, 3));
-  geometry.setAttribute("normal", new BufferAttribute(surface.normal, 3));
-  geometry.setIndex(new BufferAttribute(surface.index, 1));
-  return geometry;
-}
-
-/** Where the slicing plane opens a grain, its inside is painted in one shade, like a cut face. */
-function paintCutsFlat(material: MeshLambertMaterial): void {
-  material.onBeforeCompile = (shader) => {
-    shader.fragmentShader = shader.fragmentShader.replace(
-      "#include <opaque_fragment>",
-      "if (!gl_FrontFacing) outgoingLight = 0.58 * diffuseColor.rgb;\n#include <opaque_fragment>",
-    );
-  };
-}
 
 interface ShapeMesh {
   mesh: InstancedMesh;
@@ -90,6 +74,7 @@ export class GrainView {
   private readonly grainMaterial = new MeshLambertMaterial();
   private readonly standIns = new StandIns();
   private readonly membrane = new MembraneView();
+  private readonly cell = new CellView();
   private colourOf: (row: number) => Rgb = () => [0.8, 0.8, 0.8];
   private colours = new Float32Array(); // three per row
   private readonly plane = new Plane();
@@ -133,7 +118,7 @@ export class GrainView {
     this.light.position.set(-0.6, 0.9, 1);
     this.highlight.visible = false;
     const { coarse, balls } = this.standIns;
-    this.scene.add(this.highlight, coarse, balls, this.membrane.group);
+    this.scene.add(this.highlight, coarse, balls, this.membrane.group, this.cell.lines);
     for (const material of [this.grainMaterial, coarse.material]) paintCutsFlat(material);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
@@ -171,6 +156,7 @@ export class GrainView {
     this.placeGrains(frame);
     this.placeWalls(frame);
     this.membrane.setFrame(frame);
+    this.cell.setFrame(frame);
     this.applySlice();
     this.placeHighlight();
     this.draw();

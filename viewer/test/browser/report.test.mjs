@@ -30,6 +30,9 @@ before(async () => {
       scene: readFileSync(new URL("../../../tests/paraview/scene.toml", import.meta.url), "utf8")
         .replace("grains.h5", "sand.h5").replaceAll('"75 mm"', '"90 mm"').replace("surfaces = true, ranks = true, ", ""),
     },
+    cell: {
+      scene: readFileSync(new URL("../../../tests/paraview/cell.toml", import.meta.url), "utf8").replace("grains.h5", "sand.h5"),
+    },
   });
   reckon(runs.folder, "report", "rough.run");
   report = url("rough.run/report.html");
@@ -252,6 +255,24 @@ test("a membrane is drawn where it is at each saved time", async () => {
   await Promise.all([page.close(), other.page.close()]);
 });
 
+test("a periodic cell is drawn as a box that shrinks and leans", async () => {
+  reckon(runs.folder, "report", "cell.run");
+  const { page, faults } = await open(browser, url("cell.run/report.html"));
+  assert.match(await page.locator("#view").innerText(), /dashed box is the periodic cell/);
+  await field(page, "Colour by", "select").selectOption("size"); // the same at all times, as the legend lies in the picture
+  await field(page, "Grains", "select").selectOption("hidden");
+  await settled(page);
+  assert.equal(await page.locator(canvas).getAttribute("data-calls"), "2", "lines of the box, and of walls that are not there");
+  const leaning = await pixels(page, canvas);
+  await page.locator('input[aria-label="Saved time"]').focus();
+  await page.keyboard.press("Home");
+  await page.waitForSelector('#view[data-step="0"]');
+  await settled(page);
+  assert.notEqual((await pixels(page, canvas)).hash, leaning.hash, "the box has not changed");
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
 /** Counts what a page asks of WebGL: draw calls, and bytes of buffers handed over. */
 function countWork() {
   const work = { draws: 0, uploads: 0 };
@@ -372,4 +393,10 @@ test("pictures for the documents", { skip: pictures === "" }, async () => {
   await page.waitForTimeout(200);
   await save("report-curves.png");
   await page.close();
+  const cell = process.env.RECKON_CELL_REPORT;
+  const boxed = await open(browser, cell ? pathToFileURL(cell).href : url("cell.run/report.html"), { width: 1280, height: 860 });
+  await boxed.page.locator("#view").evaluate((element) => element.scrollIntoView());
+  await settled(boxed.page);
+  await boxed.page.screenshot({ path: path.join(pictures, "report-cell.png") });
+  await boxed.page.close();
 });

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 import pathlib
 
+from spack_repo.builtin.build_systems.cmake import CMakePackage
+
 from spack.package import *
 
 
@@ -9,7 +11,7 @@ class Reckon(CMakePackage):
     """Level-set discrete element method for grains of any shape, for geomechanics."""
 
     # The checkout that this recipe lies in.
-    git = pathlib.Path(__file__).resolve().parents[4].as_uri()
+    git = pathlib.Path(__file__).resolve().parents[6].as_uri()
 
     license("BSD-3-Clause")
 
@@ -29,13 +31,14 @@ class Reckon(CMakePackage):
     depends_on("fmt@9:")
     depends_on("eigen@3.4:")
     depends_on("hdf5@1.10:")
+    depends_on("hdf5~mpi", when="~mpi")
     depends_on("tomlplusplus@3.3:")
     depends_on("cli11@2.3:")
     depends_on("highway@1:")
     depends_on("zlib-api")
     depends_on("mpi", when="+mpi")
     depends_on("zoltan", when="+zoltan")
-    depends_on("cpp-httplib", when="+report")
+    depends_on("cpp-httplib@0.11:", when="+report")
     depends_on("node-js@18:", when="+report", type="build")
     depends_on("npm", when="+report", type="build")
     depends_on("itk@5.2:", when="+ct")
