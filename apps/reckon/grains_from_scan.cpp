@@ -146,6 +146,11 @@ void add_avatar_options(CLI::App& command, Options& options) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 5.0));
   command
+      .add_option("--sharpen", s.sharpening,
+                  "Times that what a further smoothing by one voxel would take away is added")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 10.0));
+  command
       .add_option("--contact-gap", s.contact_gap,
                   "Grains touch when the gray values leave a gap of at most this [voxels]")
       ->capture_default_str()

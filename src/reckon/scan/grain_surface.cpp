@@ -122,6 +122,17 @@ void cut_at_border(Piece& piece) {
   }
 }
 
+/// Adds `factor` times what a smoothing by one voxel takes away.
+void sharpen(GrayVolume& share, double factor) {
+  if (!(factor > 0)) return;
+  GrayVolume smoother = share;
+  blur_volume(smoother, 1);
+  const auto weight = static_cast<float>(factor);
+  for (std::size_t v = 0; v < share.values.size(); ++v) {
+    share.values[v] += weight * (share.values[v] - smoother.values[v]);
+  }
+}
+
 /// Turns the smoothed shares into a level set, 0 where the share is 1/2.
 void to_level_set(GrayVolume& share) {
   for (float& value : share.values) value = static_cast<float>(outwardness(value));
@@ -207,11 +218,12 @@ TriangleMesh largest_component(TriangleMesh mesh) {
 }
 
 GrainSurface extract_grain(const SegmentedScan& scan, std::uint32_t label,
-                           const LabelledGrain& grain, double smoothing) {
+                           const LabelledGrain& grain, double smoothing, double sharpening) {
   Piece piece = cut_out(scan, label, grain);
   blur_volume(piece.border, border_smoothing);
   cut_at_border(piece);
   blur_volume(piece.share, smoothing);
+  sharpen(piece.share, sharpening);
   to_level_set(piece.share);
   const double voxel_volume = scan.labels->voxel * scan.labels->voxel * scan.labels->voxel;
   GrainSurface surface;

@@ -42,12 +42,17 @@ struct GrainSurface {
 /// - `smoothing` [voxels] is the deviation of a Gaussian on f. Drawing a level of a diffused
 ///   indicator anew moves the surface by its curvature (Merriman, Bence & Osher 1992): it is
 ///   curvature flow for a time smoothing^2 / 2.
+/// - Smoothing and the scanner's blur flatten relief. Some of it comes back by adding `sharpening`
+///   times what a further smoothing by one voxel would take away. For waves that are long against
+///   the blur, smoothing^2 plus the square of the blur's deviation undoes both; noise, which is
+///   shorter, grows less than it does with less smoothing.
 /// - Blur, the scanner's and this one, moves a convex surface inwards. The level is therefore
 ///   chosen such that the enclosed volume is that of the summed solid shares, within [0.25, 0.75].
 ///
 /// Throws Error when no surface is left.
 [[nodiscard]] GrainSurface extract_grain(const SegmentedScan& scan, std::uint32_t label,
-                                         const LabelledGrain& grain, double smoothing);
+                                         const LabelledGrain& grain, double smoothing,
+                                         double sharpening);
 
 /// The part of a mesh that hangs together and encloses the most.
 [[nodiscard]] TriangleMesh largest_component(TriangleMesh mesh);

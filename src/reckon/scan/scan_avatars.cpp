@@ -117,7 +117,8 @@ EdgeProfile free_edge(const SegmentedScan& scan, const Avatar& avatar) {
 
 Avatar make_avatar(const SegmentedScan& scan, std::uint32_t label, const LabelledGrain& grain,
                    const AvatarSettings& settings) {
-  const GrainSurface surface = extract_grain(scan, label, grain, settings.smoothing);
+  const GrainSurface surface =
+      extract_grain(scan, label, grain, settings.smoothing, settings.sharpening);
   const PrincipalFrame frame = principal_frame(solid_properties(surface.mesh_world));
   const TriangleMesh body_mesh = to_frame(surface.mesh_world, frame);
   Avatar avatar;
