@@ -4,6 +4,8 @@
 // what the plates must feel, whatever the grains do and wherever the borders of the cell lie.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "reckon/core/random.hpp"
 #include "reckon/simulation/simulation.hpp"
 #include "support/test_shapes.hpp"
@@ -35,7 +37,8 @@ struct Layer {
       GrainState grain;
       grain.id = GrainId{n};
       grain.shape = ShapeId{n % 2};
-      grain.position = {2.25 * (n % 4), 2.25 * (n / 4 % 4), 1.2 + 2.25 * (n / 16)};
+      grain.position =
+          Vec3{0, 0, 1.2} + 2.25 * Vec3{n % 4 + 0.0, n / 4 % 4 + 0.0, std::floor(n / 16.0)};
       for (int axis = 0; axis < 3; ++axis) {
         grain.velocity[axis] = random.uniform(-1, 1) + (axis == 0 ? 0.7 : 0);
         grain.angular_velocity_body[axis] = random.uniform(-1, 1);

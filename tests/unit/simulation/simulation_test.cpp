@@ -126,7 +126,7 @@ TEST_F(ShakenBox, EnergyBalanceErrorFallsWithTheTimeStep) {
   };
   const double coarse = worst_error(2e-4, 3000);
   const double fine = worst_error(5e-5, 12000);
-  EXPECT_LT(coarse, 0.02);
+  EXPECT_LT(coarse, 0.004);
   EXPECT_LT(fine, 0.5 * coarse);
 }
 
