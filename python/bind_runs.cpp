@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "arrays.hpp"
 #include "bindings.hpp"
 #include "reckon/io/history.hpp"
 #include "reckon/io/run.hpp"
@@ -89,7 +90,7 @@ py::dict fields(const std::filesystem::path& folder, std::uint64_t step) {
   table["time"] = saved.time;
   table["grains"] = table_of(saved.grains);
   table["contacts"] = saved.has_contacts ? py::object{table_of(saved.contacts)} : py::none();
-  table["cell_corners"] = vectors(saved.cell_corners, [](const Vec3& corner) { return corner; });
+  table["cell_corners"] = rows_of(saved.cell_corners);
   return table;
 }
 

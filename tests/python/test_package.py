@@ -142,6 +142,8 @@ class Simulations(Package):
         touching = simulation.contacts()
         self.assertEqual(len(touching["grain"]), len(saved["contacts"]["grain"]))
         numpy.testing.assert_array_equal(touching["force"], saved["contacts"]["force"])
+        self.assertEqual(saved["cell_corners"].shape, (0, 3))  # no periodic cell, no shift into it
+        self.assertFalse(saved["grains"]["cell_shift"].any())
 
     def test_the_program_reads_and_writes_the_same_runs(self):
         file = self.folder / "scene.toml"
