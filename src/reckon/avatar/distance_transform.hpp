@@ -20,11 +20,11 @@ inline constexpr double exact_band = 1.75;
 ///
 /// - Each triangle looks at the grid's vertices around it. Within exact_band of the surface the
 ///   values are those of sample_signed_distance to the last bit.
-/// - From there the closest points spread outwards and inwards, from vertex to vertex, in eight
-///   sweeps (fast sweeping of closest points, after Danielsson 1980). A vertex beyond the band
-///   takes the distance to the triangle that its best closest point lies on. That triangle may be a
-///   neighbour of the closest one, so such values are at least the distance, and a little more
-///   where many triangles are nearly as close: on spheres below 0.03 spacings more.
+/// - From there the closest points spread outwards and inwards, from vertex to vertex, nearest
+///   first (after Danielsson 1980). A vertex beyond the band takes the distance to the triangle
+///   that its best closest point lies on. That triangle may be a neighbour of the closest one, so
+///   such values are at least the distance, and a little more where many triangles are nearly as
+///   close: on spheres below 0.03 spacings more.
 ///
 /// For `ShapeStorage::band` only what a LevelSetBand keeps is computed: values are exact within
 /// band_half_width, farther outside they are that width, and deeper ones are distances to those
