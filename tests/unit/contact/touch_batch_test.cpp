@@ -42,9 +42,9 @@ struct Meeting {
       // Some springs lie against today's normal, some will slide, some will not.
       if (random.uniform() < 0.5) {
         old_springs.push_back({node, false, vector(random.uniform() < 0.5 ? 1 : 1e3),
-                               is_flat || !touches_now
-                                   ? normalized(vector(1))
-                                   : normalized(-touches.back().gradient_world)});
+                               is_flat || !touches_now ? normalized(vector(1))
+                                                       : normalized(-touches.back().gradient_world),
+                               random.uniform(-10, 10)});
       }
     }
   }

@@ -43,7 +43,7 @@ Checkpoint awkward_checkpoint() {
     checkpoint.state.grains.push_back(grain);
   }
   const auto spring = [&](std::uint32_t node, bool b) {
-    return NodeSpring{node, b, vector(), vector()};
+    return NodeSpring{node, b, vector(), vector(), vector().x};
   };
   checkpoint.state.pair_springs = {
       {GrainId{0}, GrainId{1}, {spring(3, false), spring(9, false), spring(2, true)}},
