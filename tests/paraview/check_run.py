@@ -230,7 +230,7 @@ class Instances(unittest.TestCase):
         def agreement(other):
             return (surfaces & other).sum() / (surfaces | other).sum()
         self.assertGreater(agreement(self.silhouette(instances(1))), 0.98)
-        self.assertLess(agreement(self.silhouette(instances(0))), 0.95)  # so the test would notice
+        self.assertLess(agreement(self.silhouette(instances(0))), 0.97)  # so the test would notice
 
 
 class Pictures(unittest.TestCase):

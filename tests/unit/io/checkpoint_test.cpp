@@ -11,6 +11,7 @@
 
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/core/hdf5_file.hpp"
 #include "reckon/io/run_diff.hpp"
 #include "support/test_path.hpp"
 
@@ -58,7 +59,7 @@ Checkpoint awkward_checkpoint() {
                                .lid_start = vector(),
                                .nodes = {{vector(), vector(), {number(), 0, number(), 0, number()}},
                                          {vector(), vector(), {}}},
-                               .springs = {{1, GrainId{1}, vector(), vector()}},
+                               .springs = {{1, GrainId{1}, vector(), vector(), number()}},
                                .pressure_before = number(),
                                .volume_at_stage_start = number(),
                                .height_at_stage_start = number()};
@@ -93,6 +94,39 @@ TEST_F(CheckpointTest, ReadsBackTheSameBits) {
   EXPECT_EQ(read.scene, written.scene);
   EXPECT_EQ(read.shape_digests, written.shape_digests);
   EXPECT_EQ(read.acceleration_digest, written.acceleration_digest);
+}
+
+TEST_F(CheckpointTest, OneOfVersion5LacksOnlyTheLastPushOfDashpots) {
+  Checkpoint checkpoint = awkward_checkpoint();
+  {
+    Hdf5Writer file{path_, Hdf5Kind{"checkpoint", 5}};
+    file.write<std::uint64_t>("/run/step", {checkpoint.state.step}, {1}, "1");
+    file.write<double>("/run/time_step", {checkpoint.time_step}, {1}, "s");
+    file.write<double>("/run/energy_at_start", {checkpoint.energy_at_start}, {1}, "J");
+    file.write("/run/shape_digest", checkpoint.shape_digests, {2}, "1");
+    file.write<std::uint64_t>("/run/acceleration_digest", {42}, {1}, "1");
+    file.write<std::uint8_t>("/run/scene", {'x'}, {1}, "UTF-8");
+    for (const CheckpointColumn& column : to_columns(checkpoint.state)) {
+      if (column.name.ends_with("/dashpot_push")) continue;
+      std::visit(
+          [&](const auto& values) {
+            const std::uint64_t rows = values.size() / column.width;
+            file.write(column.name, values,
+                       column.width == 1 ? Hdf5Extents{rows} : Hdf5Extents{rows, column.width},
+                       column.unit);
+          },
+          column.values);
+    }
+    file.finish();
+  }
+  for (PairSprings& pair : checkpoint.state.pair_springs) {
+    for (NodeSpring& spring : pair.springs) spring.dashpot_push = 0;
+  }
+  for (WallSprings& contact : checkpoint.state.wall_springs) {
+    for (NodeSpring& spring : contact.springs) spring.dashpot_push = 0;
+  }
+  for (MembraneSpring& spring : checkpoint.state.membrane.springs) spring.dashpot_push = 0;
+  EXPECT_EQ(first_difference(checkpoint.state, read_checkpoint(path_).state), std::nullopt);
 }
 
 TEST_F(CheckpointTest, EqualCheckpointsAreEqualFiles) {

@@ -84,6 +84,7 @@ export function launch() {
 /** Opens a page and keeps all that goes wrong in it, and all that it asks the network for. */
 export async function open(browser, url, { width = 1280, height = 900 } = {}) {
   const page = await browser.newPage({ viewport: { width, height }, acceptDownloads: true });
+  page.setDefaultTimeout(120000); // pictures without a graphics card take seconds
   const faults = [];
   const requests = [];
   page.on("pageerror", (error) => faults.push(String(error)));
@@ -92,7 +93,7 @@ export async function open(browser, url, { width = 1280, height = 900 } = {}) {
   });
   page.on("request", (request) => requests.push(request.url()));
   await page.goto(url);
-  await page.waitForSelector("html[data-ready]", { timeout: 60000 });
+  await page.waitForSelector("html[data-ready]");
   await page.addStyleTag({ content: ":root { scroll-behavior: auto !important }" });
   await settled(page);
   return { page, faults, requests };

@@ -304,7 +304,7 @@ test("a picture of five thousand grains takes a few calls, and turning hands not
         return detail === "fine" && Number(triangles) > 1e5;
       },
       canvas,
-      { timeout: 60000 },
+      { timeout: 120000 },
     );
   await atRest();
   const state = () => page.evaluate((selector) => ({

@@ -100,7 +100,7 @@ test("the page shows the run and follows it", async () => {
   assert.match(await page.locator("header").innerText(), /live/i);
   assert.equal(await page.locator("#view").getAttribute("data-step"), "1500");
   reckon(runs.folder, "run", "live.toml", "--threads", "1", "--resume", "--steps", "3000");
-  await page.waitForSelector('#view[data-step="3000"]', { timeout: 60000 });
+  await page.waitForSelector('#view[data-step="3000"]');
   assert.match((await page.locator("#summary").innerText()).replaceAll("\u202f", ""), /Steps\s+3000/);
   assert.deepEqual(faults, []);
   await page.close();
