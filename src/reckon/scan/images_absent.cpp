@@ -41,7 +41,7 @@ void write_png(const std::filesystem::path&, std::int32_t, std::int32_t,
 std::unique_ptr<VolumeReader> unpack_itk_volume(const std::filesystem::path&, std::uint64_t) {
   return absent<std::unique_ptr<VolumeReader>>();
 }
-std::unique_ptr<VolumeReader> open_itk_slices(std::vector<std::filesystem::path>) {
+std::unique_ptr<VolumeReader> open_itk_slices(const std::vector<std::filesystem::path>&) {
   return absent<std::unique_ptr<VolumeReader>>();
 }
 void write_itk_volume(const std::filesystem::path&, const GrayVolume&, VoxelType) {

@@ -217,8 +217,8 @@ std::unique_ptr<VolumeReader> unpack_itk_volume(const std::filesystem::path& fil
   });
 }
 
-std::unique_ptr<VolumeReader> open_itk_slices(std::vector<std::filesystem::path> files) {
-  return std::make_unique<SliceFiles>(std::move(files));
+std::unique_ptr<VolumeReader> open_itk_slices(const std::vector<std::filesystem::path>& files) {
+  return std::make_unique<SliceFiles>(files);
 }
 
 void write_itk_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type) {

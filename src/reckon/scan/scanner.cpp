@@ -210,6 +210,7 @@ void blur_volume(GrayVolume& volume, double deviation) {
     sum += (r == 0 ? 1 : 2) * weights.back();
   }
   std::vector<float> shares;
+  shares.reserve(weights.size());
   for (const double weight : weights) shares.push_back(static_cast<float>(weight / sum));
   for (std::size_t axis = 0; axis < 3; ++axis) blur_axis(volume, axis, shares);
 }

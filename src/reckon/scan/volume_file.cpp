@@ -53,7 +53,7 @@ std::unique_ptr<VolumeReader> open_slices(const std::filesystem::path& folder) {
                   "Name a folder of .tif files, one slice each, or a volume file.");
   }
   std::sort(files.begin(), files.end());
-  return open_itk_slices(std::move(files));
+  return open_itk_slices(files);
 }
 
 std::unique_ptr<VolumeReader> open_raw(const std::filesystem::path& file) {

@@ -84,7 +84,7 @@ struct TiffPages {
                                                               std::uint64_t memory);
 /// Slices of one volume, in this order.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_itk_slices(
-    std::vector<std::filesystem::path> files);
+    const std::vector<std::filesystem::path>& files);
 void write_itk_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type);
 
 }  // namespace reckon
