@@ -55,11 +55,10 @@ struct Layer {
     lid.name = "lid";
     lid.surface = PlaneSurface{{0, 0, lid_at}, {0, 0, -1}};
     lid.motion = WallMotion{.velocity = {speed, 0, 0}};
+    const double friction = floor.friction;
     setup.walls.push_back(lid);
-    StageSetup press{.name = "press",
-                     .friction = 0.1,
-                     .wall_friction = {floor.friction, floor.friction},
-                     .damping = 1};
+    StageSetup press{
+        .name = "press", .friction = 0.1, .wall_friction = {friction, friction}, .damping = 1};
     StageSetup shear = press;
     press.controls = {
         {.name = "lid", .walls = {WallId{1}}, .target = WallTarget::speed, .value = 3}};
