@@ -157,6 +157,17 @@ std::vector<CheckpointColumn> to_columns(const SimulationState& state) {
   return columns;
 }
 
+void write_column(Hdf5Writer& file, const CheckpointColumn& column) {
+  std::visit(
+      [&](const auto& values) {
+        const std::uint64_t rows = values.size() / column.width;
+        file.write(column.name, values,
+                   column.width == 1 ? Hdf5Extents{rows} : Hdf5Extents{rows, column.width},
+                   column.unit);
+      },
+      column.values);
+}
+
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
   Hdf5Writer file{path, checkpoint_kind};
   const auto one = [](auto value) { return std::vector<decltype(value)>{value}; };
@@ -168,14 +179,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
   const std::vector<std::uint8_t> scene(checkpoint.scene.begin(), checkpoint.scene.end());
   file.write("/run/scene", scene, {scene.size()}, "UTF-8");
   for (const CheckpointColumn& column : to_columns(checkpoint.state)) {
-    std::visit(
-        [&](const auto& values) {
-          const std::uint64_t rows = values.size() / column.width;
-          file.write(column.name, values,
-                     column.width == 1 ? Hdf5Extents{rows} : Hdf5Extents{rows, column.width},
-                     column.unit);
-        },
-        column.values);
+    write_column(file, column);
   }
   file.finish();
 }

@@ -12,6 +12,8 @@
 
 namespace reckon {
 
+class Hdf5Writer;
+
 /// All that is needed to go on with a run, to the same bits as if it had never stopped.
 struct Checkpoint {
   SimulationState state;
@@ -34,6 +36,9 @@ struct CheckpointColumn {
 
 /// The state as named tables of numbers: what the file holds and what `reckon diff` compares.
 [[nodiscard]] std::vector<CheckpointColumn> to_columns(const SimulationState& state);
+
+/// Adds a column to a file as a dataset with its unit.
+void write_column(Hdf5Writer& file, const CheckpointColumn& column);
 
 /// Writes a sealed HDF5 file (core/hdf5_file.hpp). Equal checkpoints give equal files.
 ///

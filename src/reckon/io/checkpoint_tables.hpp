@@ -49,13 +49,19 @@ void walk_bond(Columns& columns, Pair& pair, Cement& bond) {
   columns.number("radius", "m", bond.radius);
 }
 
+/// What springs of grains, walls and the membrane remember.
+template <class Columns, class Spring>
+void walk_memory(Columns& columns, Spring& spring) {
+  columns.vector("shear_force", "N", spring.shear_force);
+  columns.vector("normal", "1", spring.normal);
+  if (columns.has_since(6)) columns.number("dashpot_push", "N", spring.dashpot_push);
+}
+
 template <class Columns, class Spring>
 void walk_spring(Columns& columns, Spring& spring) {
   columns.integer("node", spring.node);
   columns.flag("master_is_b", spring.master_is_b);
-  columns.vector("shear_force", "N", spring.shear_force);
-  columns.vector("normal", "1", spring.normal);
-  if (columns.has_since(6)) columns.number("dashpot_push", "N", spring.dashpot_push);
+  walk_memory(columns, spring);
 }
 
 template <class Columns, class Departed>
@@ -132,9 +138,7 @@ template <class Columns, class Spring>
 void walk_membrane_spring(Columns& columns, Spring& spring) {
   columns.integer("node", spring.node);
   columns.id("grain", spring.grain);
-  columns.vector("shear_force", "N", spring.shear_force);
-  columns.vector("normal", "1", spring.normal);
-  if (columns.has_since(6)) columns.number("dashpot_push", "N", spring.dashpot_push);
+  walk_memory(columns, spring);
 }
 
 }  // namespace reckon

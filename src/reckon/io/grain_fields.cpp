@@ -65,9 +65,9 @@ class GrainColumns {
     const GrainState& grain = fields_.grains[row];
     const MassProperties& body = shapes_[grain.shape.get()].outline.mass;
     const Vec3 spin = rotation_matrix(grain.orientation) * grain.angular_velocity_body;
+    const double equivalent_radius = std::cbrt(0.75 / std::numbers::pi * body.volume);
     for (std::size_t point = 0; point < points; ++point) {
-      equivalent_radius_.push_back(
-          static_cast<Real>(std::cbrt(0.75 / std::numbers::pi * body.volume)));
+      equivalent_radius_.push_back(static_cast<Real>(equivalent_radius));
       mass_.push_back(static_cast<Real>(density_ * body.volume));
       append(velocity_, grain.velocity);
       append(spin_, spin);
