@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/program_fixture.hpp"
@@ -348,22 +350,33 @@ TEST_F(CliTest, TheTableOfCommandsIsTrue) {
   EXPECT_EQ(rows, commands - 1);  // `reckon grains` is the name of a group
 }
 
-/// On a terminal (script(1) provides one) long work draws a bar, and takes it away again.
+/// On a terminal (script(1) provides one) long work draws a bar, and takes it away again. What is
+/// long depends on the machine: the work grows until a bar has been drawn.
 TEST_F(CliTest, LongWorkDrawsABarOnATerminal) {
-  write("long.toml", scene_text("[time]\nsteps = 4000\n[output]\nhistory_interval = 4000\n"));
-  const auto on_terminal = [&](const std::string& line) {
-    return outcome_of(start_line({"/usr/bin/script", "-qec", line, "/dev/null"})).out;
+  const auto drawn_at_last = [&](std::size_t amount, const auto& line_of) {
+    std::string out;
+    for (int growth = 0; growth < 6; ++growth, amount *= 4) {
+      const std::string line = RECKON_PROGRAM + line_of(amount);
+      out = outcome_of(start_line({"/usr/bin/script", "-qec", line, "/dev/null"})).out;
+      if (out.find("\r\033[K[") != std::string::npos) return std::pair{out, amount};
+    }
+    ADD_FAILURE() << "no bar: " << out;
+    return std::pair{out, amount};
   };
-  const std::string program = RECKON_PROGRAM;
-  const std::string run = on_terminal(program + " run long.toml");
-  EXPECT_NE(run.find("\r\033[K["), std::string::npos) << run;
+  const auto [run, steps] = drawn_at_last(4000, [&](std::size_t amount) {
+    write("long.toml", scene_text(fmt::format(
+                           "[time]\nsteps = {0}\n[output]\nhistory_interval = {0}\n", amount)));
+    return std::string{" run long.toml --overwrite"};
+  });
   EXPECT_NE(run.find(" steps/s"), std::string::npos) << run;
-  EXPECT_NE(run.find("\r\033[Kcomplete at step 4000"), std::string::npos) << run;
-  const std::string made = on_terminal(
-      program + " grains generate --count 12 --voxels-per-diameter 40 --threads 1 -o many.h5");
-  EXPECT_NE(made.find("\r\033[K["), std::string::npos) << made;
-  EXPECT_NE(made.find(" of 12 grains"), std::string::npos) << made;
-  EXPECT_NE(made.find("\r\033[Kmany.h5: 12 grains"), std::string::npos) << made;
+  EXPECT_NE(run.find(fmt::format("\r\033[Kcomplete at step {}", steps)), std::string::npos) << run;
+  const auto [made, grains] = drawn_at_last(12, [](std::size_t amount) {
+    return fmt::format(
+        " grains generate --count {} --voxels-per-diameter 40 --threads 1 -o many.h5", amount);
+  });
+  EXPECT_NE(made.find(fmt::format(" of {} grains", grains)), std::string::npos) << made;
+  EXPECT_NE(made.find(fmt::format("\r\033[Kmany.h5: {} grains", grains)), std::string::npos)
+      << made;
 }
 
 TEST_F(CliTest, ARunAnswersInJsonWithWhatItsStagesHaveShown) {
