@@ -13,7 +13,7 @@ mkdir -p "$work"
 cp examples/scan/scene.toml "$work/"
 cd "$work"
 [[ -s smooth.h5 ]] || "$reckon" grains generate --count 50 --seed 7 --d50 1mm --roundness 0.55 --roundness-deviation 0.08 \
-  --roughness 0.01 --highest-degree 10 --voxels-per-diameter 40 -o smooth.h5
+  --roughness 0.01 --highest-degree 10 --voxels-per-diameter 80 -o smooth.h5
 [[ -d scene.run ]] || "$reckon" run scene.toml
 for voxel in 50.8um 33.9um 25.4um; do
   "$reckon" grains scan scene.run --voxel $voxel --out "scan-$voxel"

@@ -15,7 +15,7 @@ mkdir -p "$work"
 cp examples/scan/stones.toml examples/scan/compress.toml "$work/"
 cd "$work"
 [[ -s aggregate57.h5 ]] || "$reckon" grains from-harmonics "$data"/anm/*.dat --unit mm \
-  --degree-table "$data/FDOT-57-geom.dat" --voxels-per-diameter 40 -o aggregate57.h5
+  --degree-table "$data/FDOT-57-geom.dat" --voxels-per-diameter 80 -o aggregate57.h5
 [[ -d stones.run ]] || "$reckon" run stones.toml
 for voxel in 0.776mm 0.517mm 0.388mm; do
   "$reckon" grains scan stones.run --voxel $voxel --out "scan-$voxel"

@@ -33,8 +33,8 @@ TEST(ScanChain, FindsKnownGrainsAtEveryResolution) {
     EXPECT_LT(f.volume_error_absolute, voxels > 25 ? 0.006 : 0.01);
     EXPECT_LT(f.inertia_error, 0.4 / voxels);
     EXPECT_LT(f.center_error, 0.1);
-    EXPECT_LT(f.surface_error, voxels > 25 ? 0.07 : 0.09);
-    EXPECT_LT(degrees, voxels > 25 ? 3 : 4.3);
+    EXPECT_LT(f.surface_error, voxels > 25 ? 0.05 : 0.07);
+    EXPECT_LT(degrees, voxels > 25 ? 2.8 : 4);
     EXPECT_GT(f.true_contacts, 10U);
     EXPECT_GE(f.recall(), voxels > 25 ? 0.95 : 0.9);
     EXPECT_GE(f.precision(), voxels > 25 ? 0.95 : 0.9);

@@ -146,6 +146,7 @@ class Segmenter {
     begin(ScanStage::denoise);
     scan_.denoised = settings_.gray.empty() ? solid : denoised(scan_.raw, settings_.denoise, work);
     scan_.levels = levels_of(scan_.raw, scan_.mask, 0, work);
+    if (settings_.gray.empty()) scan_.levels.blur = 0;
     choose();
     measure_solid();
     return std::move(scan_);

@@ -14,6 +14,7 @@
 #include "reckon/avatar/surface_extraction.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/math/portable.hpp"
+#include "reckon/scan/own_share.hpp"
 #include "reckon/scan/scanner.hpp"
 #include "reckon/shape/level_set.hpp"
 
@@ -21,9 +22,9 @@ namespace reckon {
 namespace {
 
 constexpr std::int32_t padding = territory_layers + 2;  // of the piece that a grain is cut out of
-constexpr double border_smoothing = 2;                  // of indicators [voxels]
-constexpr double largest_offset = 1.1;                  // a share of 0.25 or 0.75
-constexpr int offset_rounds = 6;
+constexpr double lowest_level = 0.25;
+constexpr double highest_level = 0.75;
+constexpr int level_rounds = 6;
 constexpr double volume_tolerance = 1e-4;
 constexpr int inner_layers = 2;  // of a grain, left out of its solid level
 constexpr std::uint64_t fewest_inner = 30;
@@ -32,7 +33,7 @@ constexpr std::uint64_t fewest_inner = 30;
 struct Piece {
   std::array<std::int32_t, 3> low{};  // in the volume; may lie outside
   GrayVolume share;                   // solid shares of the denoised volume
-  GrayVolume border;                  // neighbours minus grain, smoothed
+  GrayVolume ownership;               // 1: grain, 0: neighbours, 1/2: void
   double gray_volume{0};              // [voxels]
   double solid_gray{0};
 };
@@ -75,7 +76,7 @@ Piece cut_out(const SegmentedScan& scan, std::uint32_t label, const LabelledGrai
   }
   const double voxel = scan.labels->voxel;
   piece.share = GrayVolume{dims, voxel};
-  piece.border = GrayVolume{dims, voxel};
+  piece.ownership = GrayVolume{dims, voxel, 0.5F};
   piece.solid_gray = own_solid_gray(scan, label, grain);
   GrayLevels levels = scan.levels;
   levels.solid_gray = piece.solid_gray;
@@ -90,36 +91,12 @@ Piece cut_out(const SegmentedScan& scan, std::uint32_t label, const LabelledGrai
         const std::size_t v = scan.labels->index(x, y, z);
         const std::uint32_t owner = scan.territories->values[v];
         piece.share.values[at] = static_cast<float>(levels.share(scan.denoised->values[v]));
-        piece.border.values[at] = owner == label ? -1.0F : owner != 0 ? 1.0F : 0.0F;
+        piece.ownership.values[at] = owner == label ? 1.0F : owner != 0 ? 0.0F : 0.5F;
         if (owner == label) piece.gray_volume += levels.share(scan.raw->values[v]);
       }
     }
   }
   return piece;
-}
-
-/// -ln(p / (1 - p)), which falls along a blurred edge nearly as the distance from it grows. Shares
-/// beyond 0.1 % of void and solid, which only noise tells apart, are cut off.
-double outwardness(double share) {
-  constexpr double least = 1e-3;
-  static const double largest = portable::log((1 - least) / least);
-  if (share <= least) return largest;
-  if (share >= 1 - least) return -largest;
-  return portable::log((1 - share) / share);
-}
-
-/// Turns the smoothed indicators into a level set of the border with the neighbours, and cuts the
-/// shares off there, as a voxel's own part would be: at a contact what is left is half of the gap's
-/// void, so that the surface, once smoothed, recedes from the border as the gap widens.
-void cut_at_border(Piece& piece) {
-  constexpr double logits_per_deviation = 1.702;  // of a Gaussian edge, at its middle
-  for (std::size_t v = 0; v < piece.share.values.size(); ++v) {
-    const double own_part = 0.5 - 0.5 * piece.border.values[v];
-    const double level = border_smoothing * outwardness(own_part);
-    piece.border.values[v] = static_cast<float>(level);
-    const double beyond = level / logits_per_deviation;  // [voxels]
-    piece.share.values[v] *= static_cast<float>(std::clamp(0.5 - beyond, 0.0, 1.0));
-  }
 }
 
 /// Adds `factor` times what a smoothing by one voxel takes away.
@@ -133,16 +110,11 @@ void sharpen(GrayVolume& share, double factor) {
   }
 }
 
-/// Turns the smoothed shares into a level set, 0 where the share is 1/2.
-void to_level_set(GrayVolume& share) {
-  for (float& value : share.values) value = static_cast<float>(outwardness(value));
-}
-
 /// Keeps the surface off the grid's outermost vertices.
 void close_at_edges(LevelSet& grid) {
   const auto close = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
     float& value = grid.values[grid.index(i, j, k)];
-    value = std::max(value, 0.25F);
+    value = std::max(value, 0.1F);
   };
   for (std::int32_t k = 0; k < grid.dims[2]; ++k) {
     for (std::int32_t j = 0; j < grid.dims[1]; ++j) {
@@ -153,18 +125,19 @@ void close_at_edges(LevelSet& grid) {
   }
 }
 
-/// The level set of the grain, its surface against void moved outwards by `offset`.
-LevelSet level_set_of(const Piece& piece, double offset) {
+/// A level set of the grain in solid shares: 0 where its own share is `level`, or at the border
+/// with its neighbours, whichever lies farther inside.
+LevelSet level_set_of(const OwnShare& own, const std::array<std::int32_t, 3>& low, double level) {
   LevelSet grid;
-  grid.dims = piece.share.dims;
-  grid.spacing = piece.share.voxel;
+  grid.dims = own.share.dims;
+  grid.spacing = own.share.voxel;
   for (int axis = 0; axis < 3; ++axis) {
-    grid.origin_body[axis] = (piece.low[static_cast<std::size_t>(axis)] + 0.5) * piece.share.voxel;
+    grid.origin_body[axis] = (low[static_cast<std::size_t>(axis)] + 0.5) * own.share.voxel;
   }
-  grid.values.resize(piece.share.values.size());
-  const auto moved = static_cast<float>(offset);
+  grid.values.resize(own.share.values.size());
+  const auto drawn_at = static_cast<float>(level);
   for (std::size_t v = 0; v < grid.values.size(); ++v) {
-    grid.values[v] = std::max(piece.share.values[v] - moved, piece.border.values[v]);
+    grid.values[v] = std::max(drawn_at - own.share.values[v], 0.5F - own.part.values[v]);
   }
   close_at_edges(grid);
   return grid;
@@ -220,34 +193,32 @@ TriangleMesh largest_component(TriangleMesh mesh) {
 GrainSurface extract_grain(const SegmentedScan& scan, std::uint32_t label,
                            const LabelledGrain& grain, double smoothing, double sharpening) {
   Piece piece = cut_out(scan, label, grain);
-  blur_volume(piece.border, border_smoothing);
-  cut_at_border(piece);
-  blur_volume(piece.share, smoothing);
-  sharpen(piece.share, sharpening);
-  to_level_set(piece.share);
+  OwnShare own = own_share(std::move(piece.share), piece.ownership, scan.levels.blur);
+  blur_volume(own.share, smoothing);
+  sharpen(own.share, sharpening);
   const double voxel_volume = scan.labels->voxel * scan.labels->voxel * scan.labels->voxel;
   GrainSurface surface;
   surface.label_volume = static_cast<double>(grain.voxels) * voxel_volume;
   surface.gray_volume = piece.gray_volume * voxel_volume;
   surface.solid_gray = piece.solid_gray;
 
-  const auto error_at = [&](double offset) {
-    surface.level = 1 / (1 + portable::exp(offset));
-    surface.mesh_world = largest_component(extract_surface(level_set_of(piece, offset)));
+  const auto error_at = [&](double level) {
+    surface.level = level;
+    surface.mesh_world = largest_component(extract_surface(level_set_of(own, piece.low, level)));
     return enclosed_volume(surface.mesh_world) / surface.gray_volume - 1;
   };
-  // Secants. A unit of offset moves the surface by about half a voxel, which tells the first step.
+  // Secants. A whole share moves the surface by about two voxels, which tells the first step.
   const double diameter = portable::cbrt(6 * piece.gray_volume / std::numbers::pi);  // [voxels]
-  double slope = 3 / diameter;
-  double offset = 0;
-  double error = error_at(offset);
-  for (int round = 1; round < offset_rounds && std::abs(error) > volume_tolerance; ++round) {
-    const double next = std::clamp(offset - error / slope, -largest_offset, largest_offset);
-    if (next == offset) break;
+  double slope = -12 / diameter;
+  double level = 0.5;
+  double error = error_at(level);
+  for (int round = 1; round < level_rounds && std::abs(error) > volume_tolerance; ++round) {
+    const double next = std::clamp(level - error / slope, lowest_level, highest_level);
+    if (next == level) break;
     const double next_error = error_at(next);
-    const double found = (next_error - error) / (next - offset);
-    if (found > 0) slope = found;
-    offset = next;
+    const double found = (next_error - error) / (next - level);
+    if (found < 0) slope = found;
+    level = next;
     error = next_error;
   }
   if (surface.mesh_world.triangles.empty()) {

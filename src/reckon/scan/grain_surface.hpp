@@ -36,9 +36,8 @@ struct GrainSurface {
 ///
 /// - Gray values become solid shares f between the volume's void and the grain's own solid, so that
 ///   a shading over the volume (beam hardening) does not move the surface.
-/// - Against neighbours f is cut off at the smoothed border of the labels. What is left of it there
-///   lacks half of the void between the two, however blurred, so that f = level recedes from the
-///   border as the gap widens, and nowhere crosses it.
+/// - What neighbours add to f is subtracted (own_share). The surface crosses the border with them
+///   nowhere.
 /// - `smoothing` [voxels] is the deviation of a Gaussian on f. Drawing a level of a diffused
 ///   indicator anew moves the surface by its curvature (Merriman, Bence & Osher 1992): it is
 ///   curvature flow for a time smoothing^2 / 2.

@@ -46,8 +46,8 @@ struct ScannedContact {
 
 struct AvatarSettings {
   ShapeResolution resolution;
-  double smoothing{1.2};     ///< see extract_grain [voxels]
-  double sharpening{3};      ///< likewise
+  double smoothing{1.5};     ///< see extract_grain [voxels]
+  double sharpening{7};      ///< likewise
   double contact_gap{0.12};  ///< largest gray gap of grains that count as touching [voxels]
 };
 

@@ -31,11 +31,12 @@ struct SplitSettings {
   double neck_void{0.03};  ///< NeckRules::largest_void
 };
 
-/// Gray values of what a scan consists of.
+/// How void, solid and the edges between them look in a scan.
 struct GrayLevels {
   double threshold{0};
   double void_gray{0};
   double solid_gray{0};
+  double blur{0.95};  ///< deviation of an edge's, once denoised: usual for scans [voxels]
 
   /// The solid share that a gray value stands for.
   [[nodiscard]] double share(double gray) const {
