@@ -62,9 +62,8 @@ OwnShare own_share(GrayVolume share, const GrayVolume& ownership, double blur) {
 
   const GrayVolume sharp = deblurred(own.share, blur);
   const GrayVolume solid = blurred(sharp, film_smoothing);
-  double smoothing = label_smoothing;
-  for (int round = 0; round < film_rounds; ++round, smoothing = film_smoothing) {
-    GrayVolume inside = side(own.part, smoothing);
+  for (int round = 0; round < film_rounds; ++round) {
+    GrayVolume inside = side(own.part, round == 0 ? label_smoothing : film_smoothing);
     multiply(inside, sharp);
     blur_volume(inside, film_smoothing);
     for (std::size_t v = 0; v < inside.values.size(); ++v) {
