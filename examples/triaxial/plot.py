@@ -67,7 +67,7 @@ def main() -> None:
     for each in axes.flat:
         each.set_xlim(0, 16)
     for each in axes[0]:
-        each.legend(frameon=False, fontsize=7)
+        each.legend(frameon=False, fontsize=7, loc="lower right", ncol=2)
     for each in axes[1]:
         each.set_xlabel("axial strain [%]")
     curves.save(figure, sys.argv[2])

@@ -26,6 +26,7 @@ while read -r kpa rate duration; do
     sed "${larger[@]}" -e "s/sand.h5/$grains.h5/; s/100 kPa/$kpa kPa/g; s/strain_rate = 5/strain_rate = $rate/" \
       -e "s/\"30 ms\"/\"$duration ms\"/" examples/triaxial/scene.toml >"$work/$grains-$kpa.toml"
     "$reckon" run "$work/$grains-$kpa.toml" --out "$work/$grains-$kpa" --overwrite | tee "$work/$grains-$kpa.txt"
+    "$reckon" run "$work/$grains-$kpa.toml" --out "$work/$grains-$kpa" --resume --json >"$work/$grains-$kpa.json"
   done
 done <<'END'
 100 5 30
@@ -34,6 +35,7 @@ done <<'END'
 END
 "$reckon" analyse "$work/sand-100"
 if /usr/bin/python3 -c 'import matplotlib' 2>/dev/null; then
+  /usr/bin/python3 examples/triaxial/table.py "$work"
   /usr/bin/python3 examples/triaxial/plot.py "$work" "$work/triaxial.png"
   /usr/bin/python3 examples/plot_band.py "$work/sand-100" "$work/shear-band.png"
 fi

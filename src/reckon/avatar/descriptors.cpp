@@ -100,8 +100,18 @@ double inscribed_radius(const TriangleBvh& bvh, const LevelSetView& grid) {
   Vec3 best = grid.origin_body + grid.spacing * Vec3{static_cast<double>(i), static_cast<double>(j),
                                                      static_cast<double>(k)};
   double deepest = -bvh.signed_distance(best);
+  // Few points of the surface stand in the way of nearly all places, so those are asked first.
+  std::vector<Vec3> in_the_way;
   const auto consider = [&](const Vec3& p) {
-    if (bvh.any_within(p, std::max(deepest, 0.0))) return false;
+    const double reach = std::max(deepest, 0.0);
+    const bool refused = std::any_of(in_the_way.rbegin(), in_the_way.rend(), [&](const Vec3& q) {
+      return squared_norm(q - p) <= reach * reach;
+    });
+    if (refused) return false;
+    if (const auto closest = bvh.closest_point_within(p, reach)) {
+      in_the_way.push_back(closest->point);
+      return false;
+    }
     const double depth = -bvh.signed_distance(p);
     if (!(depth > deepest)) return false;
     best = p;

@@ -285,35 +285,6 @@ std::optional<ClosestPoint> TriangleBvh::closest_point_within(const Vec3& point,
   return best;
 }
 
-bool TriangleBvh::any_within(const Vec3& point, double radius) const {
-  const double squared_radius = radius * radius;
-  std::array<std::uint32_t, max_depth> stack{};
-  std::size_t size = 1;
-  while (size > 0) {
-    const Node& node = nodes_[stack[--size]];
-    if (node.count == 0) {
-      std::uint32_t near = node.first;
-      std::uint32_t far = near + 1;
-      double near_distance = nodes_[near].box.squared_distance(point);
-      double far_distance = nodes_[far].box.squared_distance(point);
-      if (far_distance < near_distance) {
-        std::swap(near, far);
-        std::swap(near_distance, far_distance);
-      }
-      if (far_distance <= squared_radius) stack[size++] = far;
-      if (near_distance <= squared_radius) stack[size++] = near;
-      continue;
-    }
-    for (std::uint32_t n = node.first; n < node.first + node.count; ++n) {
-      const Leaf& leaf = leaves_[n];
-      const ClosestPoint found =
-          closest_point_on_triangle(point, leaf.corners[0], leaf.corners[1], leaf.corners[2]);
-      if (found.squared_distance <= squared_radius) return true;
-    }
-  }
-  return false;
-}
-
 std::vector<std::uint32_t> TriangleBvh::tree_order() const {
   std::vector<std::uint32_t> order;
   order.reserve(leaves_.size());

@@ -82,9 +82,6 @@ class TriangleBvh {
   /// on a face without area.
   [[nodiscard]] Vec3 pseudo_normal(const ClosestPoint& closest) const;
 
-  /// Whether some part of the surface lies within `radius`. Answers at the first that it finds.
-  [[nodiscard]] bool any_within(const Vec3& point, double radius) const;
-
   /// All triangles, such that those near each other in the order are near each other in space.
   [[nodiscard]] std::vector<std::uint32_t> tree_order() const;
 

@@ -87,6 +87,7 @@ class Session {
       bool interrupted = false;
       bool rests = resumed_ && (rests_after_history() || test_is_over());
       if (resumed_ && (rests || progress_.step >= progress_.steps)) end = RunEnd::nothing_to_do;
+      if (end != RunEnd::nothing_to_do) save_record("running");
       while (!rests && !interrupted && progress_.step < progress_.steps) {
         simulation_.step();
         update_progress();
@@ -130,7 +131,6 @@ class Session {
       on_root(ranks_, [&] { files_->begin(row()); });
       write_fields();
     }
-    save_record("running");
   }
 
   void update_progress() {
@@ -298,7 +298,11 @@ class Session {
     const char* status = end == RunEnd::interrupted ? "interrupted"
                          : end == RunEnd::at_rest   ? "at rest"
                                                     : "complete";
-    save_record(status);
+    // A session without a step leaves what is told of the one that took the last.
+    if (end != RunEnd::nothing_to_do ||
+        ranks_.any(files_ != nullptr && !files_->record_says_ended())) {
+      save_record(status);
+    }
     RunReport report{.end = end, .progress = progress_, .last = last_};
     if (files_ == nullptr) return report;
     files_->log(fmt::format("{} at step {} of {}", status, progress_.step, progress_.steps));

@@ -115,6 +115,11 @@ void RunFiles::write_record(const std::string& status, const RunProgress& progre
   performance_text_ = performance_table(run);
 }
 
+bool RunFiles::record_says_ended() const {
+  const std::string status = recorded_status(folder_.json());
+  return status == "complete" || status == "at rest";
+}
+
 std::filesystem::path RunFiles::checkpoint_file() const {
   return latest_ ? folder_.checkpoint(*latest_) : std::filesystem::path{};
 }

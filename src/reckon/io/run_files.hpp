@@ -52,6 +52,8 @@ class RunFiles {
   // As of the last finish_writing().
   [[nodiscard]] bool history_has(std::uint64_t step) const { return outputs_->history_has(step); }
   [[nodiscard]] bool fields_have(std::uint64_t step) const { return outputs_->fields_have(step); }
+  /// Whether run.json says that the run has ended.
+  [[nodiscard]] bool record_says_ended() const;
   [[nodiscard]] std::filesystem::path checkpoint_file() const;
   [[nodiscard]] HistoryTable history() const { return read_history(folder_.history()); }
   [[nodiscard]] const std::string& performance_text() const { return performance_text_; }

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <ctime>
+#include <regex>
 #include <system_error>
 #include <utility>
 
@@ -85,6 +86,14 @@ void write_run_record(const std::filesystem::path& path, const RunRecord& record
   json.end();
   json.end();
   write_file(path, json.text());
+}
+
+std::string recorded_status(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return {};
+  static const std::regex status{R"re("status": "([^"]*)")re"};
+  const std::string text = read_file(path);
+  std::smatch found;
+  return std::regex_search(text, found, status) ? found[1].str() : std::string{};
 }
 
 }  // namespace reckon

@@ -47,4 +47,7 @@ struct RunRecord {
 
 void write_run_record(const std::filesystem::path& path, const RunRecord& record);
 
+/// The status in a run.json; empty where there is none.
+[[nodiscard]] std::string recorded_status(const std::filesystem::path& path);
+
 }  // namespace reckon

@@ -171,18 +171,6 @@ TEST(TriangleBvh, SignIsRightBesideSharpEdges) {
   EXPECT_GT(inside_count, 100);
 }
 
-TEST(TriangleBvh, KnowsWhetherAnythingIsNear) {
-  const TriangleMesh mesh = test::stretched(geodesic_sphere(9), {1, 0.7, 0.4});
-  const TriangleBvh bvh{mesh};
-  RandomStream random{17, RandomPurpose::other, 0};
-  for (int n = 0; n < 3000; ++n) {
-    const Vec3 p = random_point(random, -1.5, 1.5);
-    const double distance = std::sqrt(bvh.closest_point(p).squared_distance);
-    EXPECT_TRUE(bvh.any_within(p, distance * 1.001));
-    EXPECT_FALSE(bvh.any_within(p, distance * 0.999));
-  }
-}
-
 TEST(TriangleBvh, ItsOrderHoldsEveryTriangleOnceWithNeighboursNearEachOther) {
   const TriangleMesh mesh = geodesic_sphere(20);
   std::vector<std::uint32_t> order = TriangleBvh{mesh}.tree_order();

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "reckon/core/error.hpp"
+#include "reckon/core/file.hpp"
 #include "reckon/io/history.hpp"
 #include "reckon/io/run_diff.hpp"
 #include "reckon/parallel/threads.hpp"
@@ -81,11 +82,23 @@ TEST_F(RunTest, ARunOfOddLengthIsExtendedWithoutATrace) {
 
 TEST_F(RunTest, ResumingACompleteRunChangesNothing) {
   run(scene_text(usual), {.folder = root_ / "a", .steps = 130});
+  const RunFolder folder{root_ / "a"};
   const auto before = files_of(root_ / "a");
+  const std::string record = read_file(folder.json());  // times of the session that did the work
+  const std::string performance = read_file(folder.performance());
   const RunReport report =
       run(scene_text(usual), {.folder = root_ / "a", .resume = true, .steps = 130});
   EXPECT_EQ(report.end, RunEnd::nothing_to_do);
   EXPECT_EQ(files_of(root_ / "a"), before);
+  EXPECT_EQ(read_file(folder.json()), record);
+  EXPECT_EQ(read_file(folder.performance()), performance);
+
+  // One that was killed after its last checkpoint is not said to be running for ever.
+  std::string running = record;
+  running.replace(running.find("complete"), 8, "running");
+  write_file(folder.json(), running);
+  (void)run(scene_text(usual), {.folder = root_ / "a", .resume = true, .steps = 130});
+  EXPECT_NE(read_file(folder.json()).find("\"status\": \"complete\""), std::string::npos);
 }
 
 TEST_F(RunTest, SafetyCheckpointsGiveWay) {
