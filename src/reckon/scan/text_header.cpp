@@ -53,6 +53,13 @@ VoxelType type_named(const Types& types, std::string_view name, const std::strin
   return found->type;
 }
 
+template <class Types>
+std::string_view name_among(const Types& types, VoxelType type) {
+  return std::find_if(types.begin(), types.end(),
+                      [&](const NamedType& known) { return known.type == type; })
+      ->name;
+}
+
 template <class Names>
 bool is_among(const Names& names, std::string_view name) {
   return std::any_of(names.begin(), names.end(), [&](const char* known) { return name == known; });
@@ -225,6 +232,23 @@ VolumeHeader parse_nrrd_header(std::string_view bytes, const std::string& place)
   });
   require_complete(header, has_type, place);
   return header;
+}
+
+std::string metaimage_header(const VolumeOutline& what) {
+  const auto& [nx, ny, nz] = what.dims;
+  return fmt::format(
+      "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+      "CompressedData = False\nElementSpacing = {0} {0} {0}\nDimSize = {1} {2} {3}\n"
+      "ElementType = {4}\nElementDataFile = LOCAL\n",
+      1e3 * what.spacing.value(), nx, ny, nz, name_among(meta_types, what.type));
+}
+
+std::string nrrd_header(const VolumeOutline& what) {
+  const auto& [nx, ny, nz] = what.dims;
+  return fmt::format(
+      "NRRD0004\ntype: {4}\ndimension: 3\nsizes: {1} {2} {3}\nspacings: {0} {0} {0}\n"
+      "endian: little\nencoding: raw\n\n",
+      1e3 * what.spacing.value(), nx, ny, nz, name_among(nrrd_types, what.type));
 }
 
 }  // namespace reckon
