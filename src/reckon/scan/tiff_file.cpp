@@ -47,11 +47,6 @@ std::optional<VoxelType> type_of(unsigned format, unsigned bits) {
   return {};
 }
 
-bool white_is_zero(const TiffFile& file) {
-  return field<std::uint16_t>(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) ==
-         PHOTOMETRIC_MINISWHITE;
-}
-
 /// Throws Error unless each strip or tile lies in the file.
 void check_places(const TiffFile& file) {
   TIFF* const tiff = file.get();
@@ -140,7 +135,7 @@ TiffPage describe_page(const TiffFile& file) {
   const auto format = field<std::uint16_t>(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
   const auto samples = field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL, 1);
   const auto meaning = field<std::uint16_t>(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-  // A palette tells how numbers are to be shown; what was measured are the numbers.
+  // Palettes, and whether 0 is black or white, tell how to show the numbers that were measured.
   const bool gray = meaning <= PHOTOMETRIC_MINISBLACK || meaning == PHOTOMETRIC_PALETTE;
   if (samples != 1 || !gray) {
     refuse_volume(file.path(), "the file holds colours or vectors",
@@ -148,11 +143,10 @@ TiffPage describe_page(const TiffFile& file) {
                   "Save it in shades of gray.");
   }
   const auto type = type_of(format, bits);
-  if (!type || (white_is_zero(file) && format != SAMPLEFORMAT_UINT)) {
+  if (!type) {
     refuse_volume(file.path(), "the type of the numbers is not known",
-                  fmt::format("{} bits, format {}{}", bits, format,
-                              white_is_zero(file) ? ", white is 0" : ""),
-                  "Save it as integers of 8, 16 or 32 bits or as floats, black being 0.");
+                  fmt::format("{} bits, format {}", bits, format),
+                  "Save it as integers of 8, 16 or 32 bits or as floats.");
   }
   const auto compression = field<std::uint16_t>(file, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
   if (TIFFIsCODECConfigured(compression) == 0) {
@@ -175,9 +169,6 @@ void read_page(const TiffFile& file, const TiffPage& page, std::span<std::byte> 
     read_tiles(file, page, bytes);
   } else {
     read_strips(file, page, bytes);
-  }
-  if (white_is_zero(file)) {
-    std::transform(bytes.begin(), bytes.end(), bytes.begin(), [](std::byte b) { return ~b; });
   }
   if (field<std::uint16_t>(file, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT) == ORIENTATION_BOTLEFT) {
     const auto row = [&](std::int32_t j) {

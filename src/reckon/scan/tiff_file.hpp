@@ -60,7 +60,7 @@ struct TiffPage {
 /// its pixels lie beyond the file's end.
 [[nodiscard]] TiffPage describe_page(const TiffFile& file);
 /// Fills `bytes` with the page's numbers in this machine's order, rows as they are to be shown from
-/// the top, so that more is brighter.
+/// the top.
 void read_page(const TiffFile& file, const TiffPage& page, std::span<std::byte> bytes);
 
 }  // namespace reckon

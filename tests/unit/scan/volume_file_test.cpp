@@ -106,6 +106,15 @@ TEST_F(VolumeFile, BigEndianNumbersAreTurned) {
   EXPECT_EQ(read("a.raw").gray.values, (std::vector<float>{258, 3}));
 }
 
+TEST_F(VolumeFile, NrrdTypesHaveSeveralNames) {
+  for (const std::string name : {"ushort", "unsigned short", "uint16", "uint16_t"}) {
+    write_file(path("a.nrrd"), "NRRD0004\ntype: " + name +
+                                   "\ndimension: 3\nsizes: 2 1 1\nendian: big\nencoding: raw\n\n" +
+                                   std::string{"\x01\x02\x00\x03", 4});
+    EXPECT_EQ(read("a.nrrd").gray.values, (std::vector<float>{258, 3})) << name;
+  }
+}
+
 TEST_F(VolumeFile, LabelsAreWholeNumbers) {
   EXPECT_EQ(to_labels(counted(3, 1, 1), "labels").values, (std::vector<std::uint32_t>{0, 7, 14}));
   GrayVolume gray{{2, 1, 1}, 1};
