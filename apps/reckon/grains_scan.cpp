@@ -38,6 +38,7 @@ struct Options {
   std::string format{"h5"};
   std::string type{"uint16"};
   bool no_partial_volume{false};
+  std::uint64_t memory{0};
   int threads{0};
   bool json{false};
   ScannerSettings scanner;
@@ -77,9 +78,9 @@ Assembly open_scene(const Options& options) {
 }
 
 /// The shapes that occur, under new ids in the order of the old ones.
-ShapeLibrary collect_shapes(SimulatedScan& scan, const ReadShape& read_shape) {
+ShapeLibrary collect_shapes(std::vector<GrainState>& grains, const ReadShape& read_shape) {
   std::map<ShapeId, ShapeId> place;
-  for (const GrainState& grain : scan.grains) place[grain.shape] = {};
+  for (const GrainState& grain : grains) place[grain.shape] = {};
   ShapeLibrary library;
   std::set<std::string> names;
   for (auto& [old, now] : place) {
@@ -91,7 +92,7 @@ ShapeLibrary collect_shapes(SimulatedScan& scan, const ReadShape& read_shape) {
       names.insert(name);
     }
   }
-  for (GrainState& grain : scan.grains) grain.shape = place[grain.shape];
+  for (GrainState& grain : grains) grain.shape = place[grain.shape];
   return library;
 }
 
@@ -115,22 +116,35 @@ void scan(const Options& options) {
   settings.validate();
   const Assembly assembly =
       std::filesystem::is_directory(options.source) ? open_run(options) : open_scene(options);
-  SimulatedScan result = scan_assembly(assembly.grains, assembly.read_shape, settings);
-  const ShapeLibrary library = collect_shapes(result, assembly.read_shape);
+  const Scanner scanner{assembly.grains, assembly.read_shape, settings};
+  const Workspace work{options.folder, options.memory, 0};
+  const auto slabs = work.slabs(scanner.dims(), scanner.margin());
+  std::vector<GrainState> grains = scanner.grains();
+  const ShapeLibrary library = collect_shapes(grains, assembly.read_shape);
   const std::filesystem::path folder{options.folder};
   std::filesystem::create_directories(folder);
-  write_volume(folder / ("volume." + options.format), result.gray, *type);
-  write_volume(folder / "labels.h5", to_gray(result.labels), VoxelType::uint32);
+  const auto create = [&](const std::string& name, VoxelType numbers) {
+    return create_volume(folder / name, scanner.dims(), settings.voxel, numbers);
+  };
+  const auto volume = create("volume." + options.format, *type);
+  const auto labels = create("labels.h5", VoxelType::uint32);
+  for (const Box& slab : slabs) {
+    const ScannedLayers layers = scanner.scan(slab);
+    volume->write_layers(layers.gray);
+    labels->write_layers(to_gray(layers.labels));
+  }
+  volume->finish();
+  labels->finish();
   save_library(folder / "library.h5", library);
-  write_placement(folder / "placement.csv", result.grains);
-  const auto contacts = near_surfaces(shape_views(library), result.grains, 0);
+  write_placement(folder / "placement.csv", grains);
+  const auto contacts = near_surfaces(shape_views(library), grains, 0);
   write_contacts(folder / "contacts.csv", contacts);
-  const auto& dims = result.gray.dims;
+  const auto& dims = scanner.dims();
   if (options.json) {
     JsonWriter json;
     json.begin_object();
     json.value("folder", options.folder);
-    json.value("grains", result.grains.size());
+    json.value("grains", grains.size());
     json.value("contacts", contacts.size());
     json.begin_array("voxels");
     for (const std::int32_t dim : dims) json.value({}, dim);
@@ -140,8 +154,8 @@ void scan(const Options& options) {
     fmt::print("{}", json.text());
     return;
   }
-  fmt::print("{}: {} grains in {} x {} x {} voxels\n", options.folder,
-             human_count(result.grains.size()), dims[0], dims[1], dims[2]);
+  fmt::print("{}: {} grains in {} x {} x {} voxels\n", options.folder, human_count(grains.size()),
+             dims[0], dims[1], dims[2]);
 }
 
 }  // namespace
@@ -178,6 +192,11 @@ void add_grains_scan(CLI::App& grains) {
   number("--void-gray", s.void_gray, "Gray value of void");
   number("--solid-gray", s.solid_gray, "Gray value of solid");
   number("--seed", s.seed, "Seed of the noise");
+  command
+      ->add_option("--memory", options->memory,
+                   "For the volume, e.g. 8GB; a larger one is scanned slab by slab (default: half "
+                   "of the machine's)")
+      ->transform(CLI::AsSizeValue(true));
   command->add_option("--threads", options->threads, "Threads (default: all)")
       ->check(CLI::Range(1, 4096));
   command->add_flag("--json", options->json, "Answer in JSON");

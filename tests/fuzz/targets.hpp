@@ -25,7 +25,7 @@ namespace reckon::fuzz {
 [[nodiscard]] Target placement_target();
 [[nodiscard]] Target volume_npy_target();
 [[nodiscard]] Target volume_raw_target();
-/// None without the component `ct`.
+/// MetaImage, NRRD and TIFF, plain and compressed.
 [[nodiscard]] std::vector<Target> image_targets();
 
 }  // namespace reckon::fuzz

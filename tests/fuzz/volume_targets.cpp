@@ -4,9 +4,10 @@
 
 #include "reckon/core/file.hpp"
 #include "reckon/io/placement_table.hpp"
-#include "reckon/scan/image_filters.hpp"
 #include "reckon/scan/volume_file.hpp"
+#include "reckon/scan/volume_formats.hpp"
 #include "scratch.hpp"
+#include "support/packed_files.hpp"
 #include "targets.hpp"
 
 namespace reckon::fuzz {
@@ -16,6 +17,19 @@ GrayVolume small_volume() {
   GrayVolume volume{{5, 4, 3}, 2e-6};
   for (std::size_t v = 0; v < volume.values.size(); ++v) volume.values[v] = static_cast<float>(v);
   return volume;
+}
+
+void write_packed(const std::string& ending, const std::filesystem::path& file) {
+  const GrayVolume volume = small_volume();
+  const VolumeOutline what{volume.dims, VoxelType::uint16, volume.voxel};
+  const std::string numbers = encode_numbers(volume.values, what.type);
+  if (ending == "mha") {
+    write_file(file, testing::packed_metaimage(metaimage_header(what), numbers));
+  } else if (ending == "nrrd") {
+    write_file(file, testing::packed_nrrd(nrrd_header(what), numbers));
+  } else {
+    testing::write_tiff(file, numbers, 5, 4, {.bits = 16});
+  }
 }
 
 Target image_target(const std::string& ending) {
@@ -29,6 +43,8 @@ Target image_target(const std::string& ending) {
                   write_volume(file, small_volume(), type);
                   inputs.push_back(read_file(file));
                 }
+                write_packed(ending, folder->path() / "packed");
+                inputs.push_back(read_file(folder->path() / "packed"));
                 return inputs;
               },
           .read =
@@ -73,7 +89,6 @@ Target volume_raw_target() {
 }
 
 std::vector<Target> image_targets() {
-  if (!has_ct_component()) return {};
   return {image_target("mha"), image_target("nrrd"), image_target("tif")};
 }
 

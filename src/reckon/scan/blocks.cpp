@@ -87,11 +87,21 @@ std::vector<Block> Workspace::blocks(const VoxelDims& dims, std::int32_t overlap
   return cut(dims, parts, overlap_here);
 }
 
-std::vector<Box> Workspace::slabs(const VoxelDims& dims) const {
+std::vector<Box> Workspace::slabs(const VoxelDims& dims, std::int32_t margin) const {
   const std::uint64_t layer = Box{{dims[0], dims[1], 1}}.voxels();
-  const std::uint64_t most = std::max<std::uint64_t>(block_voxels() / layer, 1);
-  const auto layers =
-      static_cast<std::int32_t>(std::min(most, static_cast<std::uint64_t>(dims[2])));
+  const auto count = static_cast<std::int64_t>(block_voxels() / layer);
+  // The volume's ends need no margin, so one slab may hold all that fits.
+  const std::int64_t most = count >= dims[2] ? dims[2] : count - 2 * std::int64_t{margin};
+  if (most < 1 && margin > 0) {
+    throw Error{
+        {.place = "--memory",
+         .problem = "the memory is too small for the volume's layers",
+         .reason = fmt::format("{} layers at once need {} bytes, {} are allowed", 2 * margin + 1,
+                               static_cast<std::uint64_t>(2 * margin + 1) * layer * bytes_per_voxel,
+                               memory_limit()),
+         .fix = "Allow more memory."}};
+  }
+  const auto layers = static_cast<std::int32_t>(std::max<std::int64_t>(most, 1));
   std::vector<Box> slabs;
   for (std::int32_t z = 0; z < dims[2]; z += layers) {
     slabs.push_back({{0, 0, z}, {dims[0], dims[1], std::min(layers, dims[2] - z)}});

@@ -38,8 +38,10 @@ struct Workspace {
   /// Blocks whose `whole` reaches `overlap` voxels beyond the core, cut across the longest edges
   /// first. Throws Error when the memory is too small for that.
   [[nodiscard]] std::vector<Block> blocks(const VoxelDims& dims, std::int32_t overlap) const;
-  /// The volume in runs of whole layers, from the first to the last.
-  [[nodiscard]] std::vector<Box> slabs(const VoxelDims& dims) const;
+  /// The volume in runs of whole layers, from the first to the last; at least one layer each.
+  /// Throws Error when each needs `margin` layers more on either side and the memory is too small
+  /// for that.
+  [[nodiscard]] std::vector<Box> slabs(const VoxelDims& dims, std::int32_t margin = 0) const;
 };
 
 /// The machine's memory [bytes].

@@ -29,6 +29,8 @@ class ByteFile {
   /// What was never written reads as zeros.
   void resize(std::uint64_t size);
   [[nodiscard]] std::uint64_t size() const;
+  /// Its name; a scratch file's folder.
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
   ByteFile(int descriptor, std::filesystem::path path);

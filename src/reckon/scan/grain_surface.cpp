@@ -14,8 +14,8 @@
 #include "reckon/avatar/surface_extraction.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/math/portable.hpp"
+#include "reckon/scan/blur.hpp"
 #include "reckon/scan/own_share.hpp"
-#include "reckon/scan/scanner.hpp"
 #include "reckon/shape/level_set.hpp"
 
 namespace reckon {

@@ -4,6 +4,8 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <string>
 
 #include "reckon/core/file.hpp"
@@ -75,6 +77,22 @@ hid_t stored_type(VoxelType type) {
   return -1;
 }
 
+using Extents = std::array<hsize_t, 3>;
+
+/// z first.
+Extents extents_of(const VoxelDims& dims) {
+  return {static_cast<hsize_t>(dims[2]), static_cast<hsize_t>(dims[1]),
+          static_cast<hsize_t>(dims[0])};
+}
+
+/// A dataset's space with layers selected.
+hid_t select(hid_t dataset, hsize_t first, const Extents& extents) {
+  const Extents start{first, 0, 0};
+  const hid_t space = H5Dget_space(dataset);
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extents.data(), nullptr);
+  return space;
+}
+
 class Hdf5VolumeReader : public VolumeReader {
  public:
   Hdf5VolumeReader(const std::filesystem::path& file, const std::string& dataset)
@@ -90,7 +108,7 @@ class Hdf5VolumeReader : public VolumeReader {
       refuse_volume(file, fmt::format("{} is no volume", name_),
                     fmt::format("it has {} dimensions", rank), "Choose another with --dataset.");
     }
-    std::array<hsize_t, 3> extents{};
+    Extents extents{};
     {
       const Hdf5Handle space{H5Dget_space(dataset_.get()), H5Sclose};
       H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr);
@@ -112,13 +130,8 @@ class Hdf5VolumeReader : public VolumeReader {
   GrayVolume read_layers(std::int32_t first, std::int32_t count) override {
     const QuietHdf5 quiet;
     GrayVolume layers{Box{{0, 0, first}, {outline.dims[0], outline.dims[1], count}}, 0};
-    const std::array<hsize_t, 3> start{static_cast<hsize_t>(first), 0, 0};
-    const std::array<hsize_t, 3> extents{static_cast<hsize_t>(count),
-                                         static_cast<hsize_t>(outline.dims[1]),
-                                         static_cast<hsize_t>(outline.dims[0])};
-    const Hdf5Handle space{H5Dget_space(dataset_.get()), H5Sclose};
-    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extents.data(),
-                        nullptr);
+    const auto extents = extents_of(layers.dims);
+    const Hdf5Handle space{select(dataset_.get(), static_cast<hsize_t>(first), extents), H5Sclose};
     const Hdf5Handle memory{H5Screate_simple(3, extents.data(), nullptr), H5Sclose};
     if (H5Dread(dataset_.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT,
                 layers.values.data()) < 0) {
@@ -144,6 +157,61 @@ class Hdf5VolumeReader : public VolumeReader {
   Hdf5Handle dataset_;
 };
 
+class Hdf5VolumeWriter : public VolumeWriter {
+ public:
+  Hdf5VolumeWriter(const std::filesystem::path& file, const VolumeOutline& what)
+      : pending_{file}, what_{what} {
+    file_.emplace(H5Fcreate(pending_.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                  H5Fclose);
+    const auto extents = extents_of(what.dims);
+    const Hdf5Handle space{H5Screate_simple(3, extents.data(), nullptr), H5Sclose};
+    dataset_.emplace(H5Dcreate2(file_->get(), "/volume", stored_type(what.type), space.get(),
+                                H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                     H5Dclose);
+    const Hdf5Handle scalar{H5Screate(H5S_SCALAR), H5Sclose};
+    const Hdf5Handle attribute{H5Acreate2(dataset_->get(), "voxel", H5T_IEEE_F64LE, scalar.get(),
+                                          H5P_DEFAULT, H5P_DEFAULT),
+                               H5Aclose};
+    require(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &what.spacing.value()) >= 0);
+  }
+  ~Hdf5VolumeWriter() override {
+    const QuietHdf5 quiet;
+    close();
+  }
+
+  void write_layers(const GrayVolume& layers) override {
+    const QuietHdf5 quiet;
+    const std::string bytes = encode_numbers(layers.values, what_.type);
+    const auto extents = extents_of(layers.dims);
+    const Hdf5Handle space{select(dataset_->get(), next_, extents), H5Sclose};
+    const Hdf5Handle memory{H5Screate_simple(3, extents.data(), nullptr), H5Sclose};
+    require(H5Dwrite(dataset_->get(), stored_type(what_.type), memory.get(), space.get(),
+                     H5P_DEFAULT, bytes.data()) >= 0);
+    next_ += extents[0];
+  }
+  void finish() override {
+    const QuietHdf5 quiet;
+    require(H5Fflush(file_->get(), H5F_SCOPE_GLOBAL) >= 0);
+    close();
+    pending_.commit();
+  }
+
+ private:
+  void close() {
+    dataset_.reset();
+    file_.reset();
+  }
+  void require(bool written) const {
+    if (!written) refuse_unwritten(pending_.target());
+  }
+
+  PendingFile pending_;
+  VolumeOutline what_;
+  std::optional<Hdf5Handle> file_;
+  std::optional<Hdf5Handle> dataset_;
+  hsize_t next_{0};  // layer
+};
+
 }  // namespace
 
 std::unique_ptr<VolumeReader> open_hdf5_volume(const std::filesystem::path& file,
@@ -152,32 +220,10 @@ std::unique_ptr<VolumeReader> open_hdf5_volume(const std::filesystem::path& file
   return std::make_unique<Hdf5VolumeReader>(file, dataset);
 }
 
-void write_hdf5_volume(const std::filesystem::path& file, const GrayVolume& volume,
-                       VoxelType type) {
+std::unique_ptr<VolumeWriter> create_hdf5_volume(const std::filesystem::path& file,
+                                                 const VolumeOutline& what) {
   const QuietHdf5 quiet;
-  PendingFile pending{file};
-  {
-    const Hdf5Handle handle{
-        H5Fcreate(pending.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose};
-    const std::array<hsize_t, 3> extents{static_cast<hsize_t>(volume.dims[2]),
-                                         static_cast<hsize_t>(volume.dims[1]),
-                                         static_cast<hsize_t>(volume.dims[0])};
-    const Hdf5Handle space{H5Screate_simple(3, extents.data(), nullptr), H5Sclose};
-    const Hdf5Handle dataset{H5Dcreate2(handle.get(), "/volume", stored_type(type), space.get(),
-                                        H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                             H5Dclose};
-    const std::string bytes = encode_numbers(volume.values, type);
-    const Hdf5Handle scalar{H5Screate(H5S_SCALAR), H5Sclose};
-    const Hdf5Handle attribute{
-        H5Acreate2(dataset.get(), "voxel", H5T_IEEE_F64LE, scalar.get(), H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose};
-    const bool written = H5Dwrite(dataset.get(), stored_type(type), H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                                  bytes.data()) >= 0 &&
-                         H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &volume.voxel) >= 0 &&
-                         H5Fflush(handle.get(), H5F_SCOPE_GLOBAL) >= 0;
-    if (!written) refuse_volume(file, "the volume could not be written", {}, "Is the disk full?");
-  }
-  pending.commit();
+  return std::make_unique<Hdf5VolumeWriter>(file, what);
 }
 
 }  // namespace reckon

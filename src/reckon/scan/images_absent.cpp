@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/core/error.hpp"
 #include "reckon/scan/image_filters.hpp"
-#include "reckon/scan/volume_formats.hpp"
 
 namespace reckon {
 
@@ -11,8 +10,7 @@ bool has_ct_component() { return false; }
 void require_ct_component() {
   throw Error{{.place = {},
                .problem = "this program was built without its component ct",
-               .reason = "it needs the Insight Toolkit to work on volumes and for TIFF, NRRD and "
-                         "MetaImage",
+               .reason = "it needs the Insight Toolkit to work on volumes",
                .fix = "Install libinsighttoolkit5-dev and build anew; cmake says whether it was "
                       "found."}};
 }
@@ -36,15 +34,6 @@ GrayVolume depth_in_solid(const MaskVolume&) { return absent<GrayVolume>(); }
 LabelVolume split_at_necks(const GrayVolume&, double) { return absent<LabelVolume>(); }
 void write_png(const std::filesystem::path&, std::int32_t, std::int32_t,
                const std::vector<std::uint8_t>&) {
-  require_ct_component();
-}
-std::unique_ptr<VolumeReader> unpack_itk_volume(const std::filesystem::path&, std::uint64_t) {
-  return absent<std::unique_ptr<VolumeReader>>();
-}
-std::unique_ptr<VolumeReader> open_itk_slices(const std::vector<std::filesystem::path>&) {
-  return absent<std::unique_ptr<VolumeReader>>();
-}
-void write_itk_volume(const std::filesystem::path&, const GrayVolume&, VoxelType) {
   require_ct_component();
 }
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "reckon/scan/scanner.hpp"
+#include "reckon/scan/blur.hpp"
 
 namespace reckon {
 namespace {

@@ -8,15 +8,14 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 
 #include "reckon/avatar/random_variates.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/random.hpp"
-#include "reckon/math/portable.hpp"
 #include "reckon/parallel/threads.hpp"
+#include "reckon/scan/blur.hpp"
 
 namespace reckon {
 namespace {
@@ -32,12 +31,15 @@ void require(bool good, const char* setting, double value, const char* range) {
                .fix = "Choose a value in this range."}};
 }
 
+}  // namespace
+
 /// A grain as the scanner meets it: its grid and its pose in the volume.
-struct Body {
+struct Scanner::Body {
   LevelSetView grid;
   Mat3 to_world;
   Vec3 position;
   double radius{0};
+  double lipschitz{1};
   std::uint32_t label{0};
 
   /// The level set at a point of the volume; outside the grid, where nothing is solid, a spacing.
@@ -47,7 +49,10 @@ struct Body {
   }
 };
 
+namespace {
+
 /// Which points of a voxel are solid.
+template <class Body>
 std::uint64_t solid_points(const Body& body, const Vec3& center, double voxel) {
   std::uint64_t points = 0;
   std::uint64_t bit = 1;
@@ -62,20 +67,21 @@ std::uint64_t solid_points(const Body& body, const Vec3& center, double voxel) {
   return points;
 }
 
-/// Fills layer k of the volume with solid shares and labels.
-void fill_layer(const std::vector<Body>& bodies, const std::vector<double>& lipschitz,
-                bool partial_volume, std::int32_t k, GrayVolume& gray, LabelVolume& labels) {
+/// Fills layer k of the volume with solid shares, and with labels where they are wanted.
+template <class Body>
+void fill_layer(const std::vector<Body>& bodies, bool partial_volume, std::int32_t k,
+                GrayVolume& gray, LabelVolume& labels) {
   const double voxel = gray.voxel;
   const std::size_t first = gray.index(0, 0, k);
-  const std::size_t layer = gray.index(0, 0, 1);
+  const std::size_t layer = gray.index(0, 0, gray.low[2] + 1);
+  const bool labelled = labels.holds(0, 0, k);
   std::vector<std::uint64_t> points(layer, 0);
   std::vector<double> deepest(layer, 0);
   const double z = (k + 0.5) * voxel;
-  for (std::size_t n = 0; n < bodies.size(); ++n) {
-    const Body& body = bodies[n];
+  for (const Body& body : bodies) {
     const double reach = body.radius + voxel;
     if (std::abs(z - body.position.z) > reach) continue;
-    const double half_diagonal = 0.87 * voxel * lipschitz[n];
+    const double half_diagonal = 0.87 * voxel * body.lipschitz;
     const auto from = [&](double center) {
       return std::max(0, static_cast<std::int32_t>(std::floor((center - reach) / voxel)));
     };
@@ -87,7 +93,7 @@ void fill_layer(const std::vector<Body>& bodies, const std::vector<double>& lips
         const Vec3 center = gray.center_world(i, j, k);
         const double phi = body.phi(center);
         if (phi > half_diagonal && std::isfinite(phi)) continue;
-        const std::size_t at = gray.index(i, j, 0);
+        const std::size_t at = gray.index(i, j, gray.low[2]);
         const bool near_surface = !(phi < -half_diagonal) && partial_volume;
         if (near_surface) {
           points[at] |= solid_points(body, center, voxel);
@@ -96,7 +102,7 @@ void fill_layer(const std::vector<Body>& bodies, const std::vector<double>& lips
         }
         if (phi < deepest[at]) {
           deepest[at] = phi;
-          labels.values[first + at] = body.label;
+          if (labelled) labels.values[labels.index(i, j, k)] = body.label;
         }
       }
     }
@@ -106,59 +112,12 @@ void fill_layer(const std::vector<Body>& bodies, const std::vector<double>& lips
   }
 }
 
-/// Filters `width` lines that lie side by side: their numbers stand in rows, `stride` apart.
-/// The vectors are scratch.
-void blur_lines(float* values, std::size_t width, std::size_t length, std::size_t stride,
-                const std::vector<float>& weights, std::vector<float>& padded,
-                std::vector<float>& sum) {
-  const std::size_t reach = weights.size() - 1;
-  padded.resize(width * (length + 2 * reach));
-  for (std::size_t n = 0; n < length + 2 * reach; ++n) {
-    const std::size_t inside = std::clamp(n, reach, reach + length - 1) - reach;
-    std::copy_n(values + inside * stride, width, padded.data() + n * width);
-  }
-  sum.resize(width * length);
-  const float* const middle = padded.data() + reach * width;
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = weights[0] * middle[i];
-  for (std::size_t r = 1; r <= reach; ++r) {
-    const float weight = weights[r];
-    const float* const before = middle - r * width;
-    const float* const after = middle + r * width;
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * (before[i] + after[i]);
-  }
-  for (std::size_t n = 0; n < length; ++n) {
-    std::copy_n(sum.data() + n * width, width, values + n * stride);
-  }
-}
-
-/// Filters all lines along one axis.
-void blur_axis(GrayVolume& volume, std::size_t axis, const std::vector<float>& weights) {
-  const auto size = [&](std::size_t a) { return static_cast<std::size_t>(volume.dims[a]); };
-  const std::size_t row = size(0);
-  const std::size_t layer = row * size(1);
-  float* const values = volume.values.data();
-  parallel_for(size(axis == 2 ? 1 : 2), 1, [&](std::size_t n) {
-    std::vector<float> padded;
-    std::vector<float> sum;
-    const auto blur = [&](float* first, std::size_t width, std::size_t length, std::size_t stride) {
-      blur_lines(first, width, length, stride, weights, padded, sum);
-    };
-    if (axis == 2) {
-      blur(values + n * row, row, size(2), layer);
-    } else if (axis == 1) {
-      blur(values + n * layer, row, size(1), row);
-    } else {
-      for (std::size_t j = 0; j < size(1); ++j) blur(values + n * layer + j * row, 1, row, 1);
-    }
-  });
-}
-
 /// From solid shares to gray values, before the point spread function.
 void harden_beam(GrayVolume& gray, double loss) {
   const Vec3 axis{0.5 * gray.dims[0], 0.5 * gray.dims[1], 0};
   const double squared_radius = axis.x * axis.x + axis.y * axis.y;
   parallel_for(static_cast<std::size_t>(gray.dims[2]), 1, [&](std::size_t layer) {
-    const auto k = static_cast<std::int32_t>(layer);
+    const std::int32_t k = gray.low[2] + static_cast<std::int32_t>(layer);
     for (std::int32_t j = 0; j < gray.dims[1]; ++j) {
       for (std::int32_t i = 0; i < gray.dims[0]; ++i) {
         const double x = i + 0.5 - axis.x;
@@ -171,19 +130,31 @@ void harden_beam(GrayVolume& gray, double loss) {
   });
 }
 
+/// Also brings the step from void to solid to its gray values. Noise belongs to the voxel's place
+/// in the whole volume.
 void add_noise(GrayVolume& gray, const ScannerSettings& settings) {
-  const std::size_t layer = gray.index(0, 0, 1);
+  const std::size_t layer = gray.index(0, 0, gray.low[2] + 1);
+  const std::size_t before = static_cast<std::size_t>(gray.low[2]) * layer;
   const double step = settings.solid_gray - settings.void_gray;
   parallel_for(static_cast<std::size_t>(gray.dims[2]), 1, [&](std::size_t k) {
     for (std::size_t at = k * layer; at < (k + 1) * layer; ++at) {
       double value = gray.values[at];
       if (settings.noise > 0) {
-        RandomStream random{settings.seed, RandomPurpose::scan_noise, at};
+        RandomStream random{settings.seed, RandomPurpose::scan_noise, before + at};
         value += settings.noise * standard_normal(random);
       }
       gray.values[at] = static_cast<float>(settings.void_gray + step * value);
     }
   });
+}
+
+/// Drops the layers that are not in `slab`.
+void trim(GrayVolume& gray, const Box& slab) {
+  const std::size_t first = gray.index(0, 0, slab.low[2]);
+  gray.values.erase(gray.values.begin(), gray.values.begin() + static_cast<std::ptrdiff_t>(first));
+  gray.values.resize(slab.voxels());
+  gray.low = slab.low;
+  gray.dims = slab.dims;
 }
 
 }  // namespace
@@ -199,24 +170,9 @@ void ScannerSettings::validate() const {
           "the gray of solid", solid_gray, "more than the gray of void");
 }
 
-void blur_volume(GrayVolume& volume, double deviation) {
-  if (!(deviation > 0)) return;
-  const auto reach = static_cast<std::size_t>(std::ceil(4 * deviation));
-  std::vector<double> weights;
-  double sum = 0;
-  for (std::size_t r = 0; r <= reach; ++r) {
-    const double distance = static_cast<double>(r) / deviation;
-    weights.push_back(portable::exp(-0.5 * distance * distance));
-    sum += (r == 0 ? 1 : 2) * weights.back();
-  }
-  std::vector<float> shares;
-  shares.reserve(weights.size());
-  for (const double weight : weights) shares.push_back(static_cast<float>(weight / sum));
-  for (std::size_t axis = 0; axis < 3; ++axis) blur_axis(volume, axis, shares);
-}
-
-SimulatedScan scan_assembly(const std::vector<GrainState>& grains, const ReadShape& read_shape,
-                            const ScannerSettings& settings) {
+Scanner::Scanner(const std::vector<GrainState>& grains, const ReadShape& read_shape,
+                 const ScannerSettings& settings)
+    : settings_{settings}, grains_{grains} {
   settings.validate();
   if (grains.empty()) {
     throw Error{{.place = "scanner",
@@ -224,55 +180,60 @@ SimulatedScan scan_assembly(const std::vector<GrainState>& grains, const ReadSha
                  .reason = {},
                  .fix = "Name a run or a scene with grains."}};
   }
-  std::map<ShapeId, Shape> shapes;
-  for (const GrainState& grain : grains) {
-    if (!shapes.contains(grain.shape)) shapes.emplace(grain.shape, read_shape(grain.shape));
-  }
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Vec3 low{infinity, infinity, infinity};
   Vec3 high = -low;
   for (const GrainState& grain : grains) {
-    const double radius = shapes.at(grain.shape).bounding_radius;
+    if (!shapes_.contains(grain.shape)) shapes_.emplace(grain.shape, read_shape(grain.shape));
+    const double radius = shapes_.at(grain.shape).bounding_radius;
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], grain.position[axis] - radius);
       high[axis] = std::max(high[axis], grain.position[axis] + radius);
     }
   }
-  std::array<std::int32_t, 3> dims{};
   double count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const double cells = std::ceil((high[axis] - low[axis]) / settings.voxel + 2 * settings.margin);
     count *= cells;
     require(count < most_voxels, "the voxel's edge", settings.voxel,
             "what makes fewer than 2^31 voxels");
-    dims[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(cells);
+    dims_[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(cells);
   }
-
-  SimulatedScan scan;
-  scan.gray = GrayVolume{dims, settings.voxel};
-  scan.labels = LabelVolume{dims, settings.voxel};
   const double margin = settings.margin * settings.voxel;
   const Vec3 corner = low - Vec3{margin, margin, margin};
-  std::vector<Body> bodies;
-  std::vector<double> lipschitz;
-  for (const GrainState& grain : grains) {
-    const Shape& shape = shapes.at(grain.shape);
-    scan.grains.push_back(grain);
-    scan.grains.back().position -= corner;
-    scan.grains.back().orientation = normalized(grain.orientation);
-    bodies.push_back({shape.level_set, rotation_matrix(scan.grains.back().orientation),
-                      scan.grains.back().position, shape.bounding_radius,
-                      static_cast<std::uint32_t>(bodies.size() + 1)});
-    lipschitz.push_back(shape.lipschitz);
+  for (GrainState& grain : grains_) {
+    const Shape& shape = shapes_.at(grain.shape);
+    grain.position -= corner;
+    grain.orientation = normalized(grain.orientation);
+    bodies_.push_back({shape.level_set, rotation_matrix(grain.orientation), grain.position,
+                       shape.bounding_radius, shape.lipschitz,
+                       static_cast<std::uint32_t>(bodies_.size() + 1)});
   }
-  parallel_for(static_cast<std::size_t>(dims[2]), 1, [&](std::size_t k) {
-    fill_layer(bodies, lipschitz, settings.partial_volume, static_cast<std::int32_t>(k), scan.gray,
-               scan.labels);
+}
+
+Scanner::~Scanner() = default;
+
+std::int32_t Scanner::margin() const { return blur_reach(settings_.blur); }
+
+ScannedLayers Scanner::scan(const Box& slab) const {
+  GrayVolume gray{slab.widened(margin(), Box{dims_}), settings_.voxel};
+  LabelVolume labels{slab, settings_.voxel};
+  parallel_for(static_cast<std::size_t>(gray.dims[2]), 1, [&](std::size_t layer) {
+    fill_layer(bodies_, settings_.partial_volume, gray.low[2] + static_cast<std::int32_t>(layer),
+               gray, labels);
   });
-  if (settings.beam_hardening > 0) harden_beam(scan.gray, settings.beam_hardening);
-  blur_volume(scan.gray, settings.blur);
-  add_noise(scan.gray, settings);
-  return scan;
+  if (settings_.beam_hardening > 0) harden_beam(gray, settings_.beam_hardening);
+  blur_volume(gray, settings_.blur);
+  trim(gray, slab);
+  add_noise(gray, settings_);
+  return {std::move(gray), std::move(labels)};
+}
+
+SimulatedScan scan_assembly(const std::vector<GrainState>& grains, const ReadShape& read_shape,
+                            const ScannerSettings& settings) {
+  const Scanner scanner{grains, read_shape, settings};
+  ScannedLayers all = scanner.scan(Box{scanner.dims()});
+  return {std::move(all.gray), std::move(all.labels), scanner.grains()};
 }
 
 }  // namespace reckon

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <vector>
 
 #include "reckon/grains/grains.hpp"
@@ -29,15 +30,15 @@ struct ScannerSettings {
   void validate() const;
 };
 
-/// A scan and what is known of it.
-struct SimulatedScan {
-  GrayVolume gray;
-  LabelVolume labels;              ///< the place of a grain in `grains`, from 1
-  std::vector<GrainState> grains;  ///< as scanned, in the volume's world frame
-};
-
 /// Brings a shape with its grid.
 using ReadShape = std::function<Shape(ShapeId)>;
+
+/// Layers across z of a scan, and which grain each voxel belongs to: its place in
+/// Scanner::grains(), from 1.
+struct ScannedLayers {
+  GrayVolume gray;
+  LabelVolume labels;
+};
 
 /// Scans an assembly: what an X-ray tomograph would make of it.
 ///
@@ -48,14 +49,44 @@ using ReadShape = std::function<Shape(ShapeId)>;
 /// 3. The point spread function, a Gaussian.
 /// 4. White Gaussian noise, a function of seed and voxel.
 ///
-/// The volume holds all grains and a margin; `grains` come out in its world frame. Uses all
-/// threads; the result does not depend on their number. Throws Error when there are no grains or
-/// the volume would have more than 2^31 voxels.
+/// The volume holds all grains and a margin. Any part of it can be scanned alone, with the bits of
+/// the whole.
+class Scanner {
+ public:
+  /// Throws Error when there are no grains or the volume would have more than 2^31 voxels.
+  Scanner(const std::vector<GrainState>& grains, const ReadShape& read_shape,
+          const ScannerSettings& settings);
+  ~Scanner();
+  Scanner(const Scanner&) = delete;
+  Scanner& operator=(const Scanner&) = delete;
+
+  [[nodiscard]] const VoxelDims& dims() const { return dims_; }
+  /// As scanned, in the volume's world frame.
+  [[nodiscard]] const std::vector<GrainState>& grains() const { return grains_; }
+  /// How many layers on either side are worked out, and dropped, along with those that are scanned:
+  /// as far as the blur reaches.
+  [[nodiscard]] std::int32_t margin() const;
+  /// Whole layers. Uses all threads; the result does not depend on their number.
+  [[nodiscard]] ScannedLayers scan(const Box& slab) const;
+
+ private:
+  struct Body;
+
+  ScannerSettings settings_;
+  VoxelDims dims_{0, 0, 0};
+  std::vector<GrainState> grains_;
+  std::map<ShapeId, Shape> shapes_;
+  std::vector<Body> bodies_;
+};
+
+/// All of a scan, and what is known of it.
+struct SimulatedScan {
+  GrayVolume gray;
+  LabelVolume labels;
+  std::vector<GrainState> grains;
+};
 [[nodiscard]] SimulatedScan scan_assembly(const std::vector<GrainState>& grains,
                                           const ReadShape& read_shape,
                                           const ScannerSettings& settings);
-
-/// A Gaussian filter of this standard deviation [voxels], edges continued; 0 changes nothing.
-void blur_volume(GrayVolume& volume, double deviation);
 
 }  // namespace reckon

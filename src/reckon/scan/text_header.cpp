@@ -23,16 +23,34 @@ constexpr std::array meta_types{
     NamedType{"MET_USHORT", VoxelType::uint16}, NamedType{"MET_SHORT", VoxelType::int16},
     NamedType{"MET_UINT", VoxelType::uint32},   NamedType{"MET_INT", VoxelType::int32},
     NamedType{"MET_FLOAT", VoxelType::float32}, NamedType{"MET_DOUBLE", VoxelType::float64}};
-constexpr std::array nrrd_types{
-    NamedType{"uchar", VoxelType::uint8},           NamedType{"unsigned char", VoxelType::uint8},
-    NamedType{"uint8_t", VoxelType::uint8},         NamedType{"signed char", VoxelType::int8},
-    NamedType{"int8_t", VoxelType::int8},           NamedType{"ushort", VoxelType::uint16},
-    NamedType{"unsigned short", VoxelType::uint16}, NamedType{"uint16_t", VoxelType::uint16},
-    NamedType{"short", VoxelType::int16},           NamedType{"int16_t", VoxelType::int16},
-    NamedType{"uint", VoxelType::uint32},           NamedType{"unsigned int", VoxelType::uint32},
-    NamedType{"uint32_t", VoxelType::uint32},       NamedType{"int", VoxelType::int32},
-    NamedType{"int32_t", VoxelType::int32},         NamedType{"float", VoxelType::float32},
-    NamedType{"double", VoxelType::float64}};
+constexpr std::array nrrd_types{NamedType{"uchar", VoxelType::uint8},
+                                NamedType{"unsigned char", VoxelType::uint8},
+                                NamedType{"uint8", VoxelType::uint8},
+                                NamedType{"uint8_t", VoxelType::uint8},
+                                NamedType{"signed char", VoxelType::int8},
+                                NamedType{"int8", VoxelType::int8},
+                                NamedType{"int8_t", VoxelType::int8},
+                                NamedType{"ushort", VoxelType::uint16},
+                                NamedType{"unsigned short", VoxelType::uint16},
+                                NamedType{"unsigned short int", VoxelType::uint16},
+                                NamedType{"uint16", VoxelType::uint16},
+                                NamedType{"uint16_t", VoxelType::uint16},
+                                NamedType{"short", VoxelType::int16},
+                                NamedType{"short int", VoxelType::int16},
+                                NamedType{"signed short", VoxelType::int16},
+                                NamedType{"signed short int", VoxelType::int16},
+                                NamedType{"int16", VoxelType::int16},
+                                NamedType{"int16_t", VoxelType::int16},
+                                NamedType{"uint", VoxelType::uint32},
+                                NamedType{"unsigned int", VoxelType::uint32},
+                                NamedType{"uint32", VoxelType::uint32},
+                                NamedType{"uint32_t", VoxelType::uint32},
+                                NamedType{"int", VoxelType::int32},
+                                NamedType{"signed int", VoxelType::int32},
+                                NamedType{"int32", VoxelType::int32},
+                                NamedType{"int32_t", VoxelType::int32},
+                                NamedType{"float", VoxelType::float32},
+                                NamedType{"double", VoxelType::float64}};
 // What neither says where the numbers lie nor what they are.
 constexpr std::array meta_ignored{
     "ObjectType",        "BinaryData", "Offset",           "Position",
@@ -51,6 +69,13 @@ VoxelType type_named(const Types& types, std::string_view name, const std::strin
                   "Save it as integers of at most 32 bits or as floats.");
   }
   return found->type;
+}
+
+template <class Types>
+std::string_view name_among(const Types& types, VoxelType type) {
+  return std::find_if(types.begin(), types.end(),
+                      [&](const NamedType& known) { return known.type == type; })
+      ->name;
 }
 
 template <class Names>
@@ -225,6 +250,23 @@ VolumeHeader parse_nrrd_header(std::string_view bytes, const std::string& place)
   });
   require_complete(header, has_type, place);
   return header;
+}
+
+std::string metaimage_header(const VolumeOutline& what) {
+  const auto& [nx, ny, nz] = what.dims;
+  return fmt::format(
+      "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+      "CompressedData = False\nElementSpacing = {0} {0} {0}\nDimSize = {1} {2} {3}\n"
+      "ElementType = {4}\nElementDataFile = LOCAL\n",
+      1e3 * what.spacing.value(), nx, ny, nz, name_among(meta_types, what.type));
+}
+
+std::string nrrd_header(const VolumeOutline& what) {
+  const auto& [nx, ny, nz] = what.dims;
+  return fmt::format(
+      "NRRD0004\ntype: {4}\ndimension: 3\nsizes: {1} {2} {3}\nspacings: {0} {0} {0}\n"
+      "endian: little\nencoding: raw\n\n",
+      1e3 * what.spacing.value(), nx, ny, nz, name_among(nrrd_types, what.type));
 }
 
 }  // namespace reckon

@@ -28,19 +28,10 @@ bool is_tiff(const std::filesystem::path& file) {
   return ending == ".tif" || ending == ".tiff";
 }
 
-bool needs_ct(const std::string& ending) {
-  constexpr std::array endings{".mha", ".mhd", ".nrrd", ".nhdr", ".tif", ".tiff"};
-  return std::find(endings.begin(), endings.end(), ending) != endings.end();
-}
-
 [[noreturn]] void refuse_ending(const std::filesystem::path& file) {
   refuse_volume(file, "this kind of file is not known as a volume",
                 fmt::format("its name ends in \"{}\"", file.extension().string()),
                 "Give .tif, .nrrd, .mha, .raw, .npy or .h5, or a folder of TIFF slices.");
-}
-
-std::filesystem::path sidecar_of(const std::filesystem::path& file) {
-  return file.string() + ".txt";
 }
 
 std::unique_ptr<VolumeReader> open_slices(const std::filesystem::path& folder) {
@@ -53,7 +44,7 @@ std::unique_ptr<VolumeReader> open_slices(const std::filesystem::path& folder) {
                   "Name a folder of .tif files, one slice each, or a volume file.");
   }
   std::sort(files.begin(), files.end());
-  return open_itk_slices(files);
+  return open_tiff_slices(std::move(files));
 }
 
 std::unique_ptr<VolumeReader> open_raw(const std::filesystem::path& file) {
@@ -63,35 +54,31 @@ std::unique_ptr<VolumeReader> open_raw(const std::filesystem::path& file) {
                   "there is no " + sidecar.filename().string() + " beside it",
                   "Write that file: lines `dims NX NY NZ`, `type uint16`, `order little`.");
   }
-  return open_plain_volume(file, parse_raw_sidecar(read_file(sidecar), sidecar.string()));
+  return open_plain_volume(std::make_shared<ByteFile>(file),
+                           parse_raw_sidecar(read_file(sidecar), sidecar.string()));
 }
 
-std::string beginning_of(const std::filesystem::path& file) {
-  const ByteFile content{file};
-  std::string bytes(std::min<std::uint64_t>(content.size(), longest_header), '\0');
-  content.read(0, std::as_writable_bytes(std::span{bytes}));
+std::string beginning_of(const ByteFile& file) {
+  std::string bytes(std::min<std::uint64_t>(file.size(), longest_header), '\0');
+  file.read(0, std::as_writable_bytes(std::span{bytes}));
   return bytes;
 }
 
-/// MetaImage or NRRD. Only compressed numbers need the toolkit.
-std::unique_ptr<VolumeReader> open_with_text_header(const std::filesystem::path& file, bool nrrd,
-                                                    std::uint64_t memory) {
-  const std::string bytes = beginning_of(file);
-  VolumeHeader header =
-      nrrd ? parse_nrrd_header(bytes, file.string()) : parse_metaimage_header(bytes, file.string());
-  if (header.compressed) return unpack_itk_volume(file, memory);
-  if (header.data_file.empty()) return open_plain_volume(file, header);
-  header.data_start = 0;
-  return open_plain_volume(file.parent_path() / header.data_file, header);
+/// NumPy, MetaImage or NRRD: a header, and behind it or in another file the numbers.
+std::unique_ptr<VolumeReader> open_with_header(const std::filesystem::path& path,
+                                               VolumeHeader (*parse)(std::string_view bytes,
+                                                                     const std::string& place)) {
+  auto file = std::make_shared<const ByteFile>(path);
+  VolumeHeader header = parse(beginning_of(*file), path.string());
+  if (!header.data_file.empty()) {
+    file = std::make_shared<const ByteFile>(path.parent_path() / header.data_file);
+    header.data_start = 0;
+  }
+  return header.compressed ? open_packed_volume(std::move(file), header)
+                           : open_plain_volume(std::move(file), header);
 }
 
-std::unique_ptr<VolumeReader> open_tiff(const std::filesystem::path& file, std::uint64_t memory) {
-  TiffPages pages = read_tiff_pages(file);
-  if (pages.layer_starts.size() < 2) return unpack_itk_volume(file, memory);
-  return open_plain_volume(file, pages.header, std::move(pages.layer_starts));
-}
-
-std::unique_ptr<VolumeReader> open_by_ending(const VolumeRequest& request, std::uint64_t memory) {
+std::unique_ptr<VolumeReader> open_by_ending(const VolumeRequest& request) {
   const std::filesystem::path& file = request.file;
   if (std::filesystem::is_directory(file)) return open_slices(file);
   if (!std::filesystem::exists(file)) {
@@ -99,13 +86,11 @@ std::unique_ptr<VolumeReader> open_by_ending(const VolumeRequest& request, std::
   }
   const std::string ending = ending_of(file);
   if (ending == ".raw") return open_raw(file);
-  if (ending == ".npy") {
-    return open_plain_volume(file, parse_npy_header(beginning_of(file), file.string()));
-  }
+  if (ending == ".npy") return open_with_header(file, parse_npy_header);
+  if (ending == ".mha" || ending == ".mhd") return open_with_header(file, parse_metaimage_header);
+  if (ending == ".nrrd" || ending == ".nhdr") return open_with_header(file, parse_nrrd_header);
   if (ending == ".h5" || ending == ".hdf5") return open_hdf5_volume(file, request.dataset);
-  if (ending == ".mha" || ending == ".mhd") return open_with_text_header(file, false, memory);
-  if (ending == ".nrrd" || ending == ".nhdr") return open_with_text_header(file, true, memory);
-  if (is_tiff(file)) return open_tiff(file, memory);
+  if (is_tiff(file)) return open_tiff_volume(file);
   refuse_ending(file);
 }
 
@@ -145,8 +130,8 @@ void refuse_volume(const std::string& place, std::string problem, std::string re
                .fix = std::move(fix)}};
 }
 
-std::unique_ptr<VolumeReader> open_volume(const VolumeRequest& request, std::uint64_t memory) {
-  auto reader = open_by_ending(request, memory);
+std::unique_ptr<VolumeReader> open_volume(const VolumeRequest& request) {
+  auto reader = open_by_ending(request);
   check_spacing(reader->outline.spacing, request.voxel, request.file.string());
   return reader;
 }
@@ -161,7 +146,7 @@ StoredVolume read_volume(const VolumeRequest& request) {
 
 GrayOnDisk load_volume(const VolumeRequest& request, const Workspace& work,
                        const std::function<void(const GrayVolume&)>& on_layers) {
-  const auto reader = open_volume(request, work.memory_limit());
+  const auto reader = open_volume(request);
   GrayOnDisk volume{reader->outline.dims, request.voxel, work.folder};
   for (const Box& slab : work.slabs(volume.dims())) {
     const GrayVolume layers = reader->read_layers(slab.low[2], slab.dims[2]);
@@ -173,39 +158,13 @@ GrayOnDisk load_volume(const VolumeRequest& request, const Workspace& work,
 }
 
 LabelsOnDisk load_labels(const VolumeRequest& request, const Workspace& work) {
-  const auto reader = open_volume(request, work.memory_limit());
+  const auto reader = open_volume(request);
   LabelsOnDisk labels{reader->outline.dims, request.voxel, work.folder};
   for (const Box& slab : work.slabs(labels.dims())) {
     labels.write(to_labels(reader->read_layers(slab.low[2], slab.dims[2]), request.file.string()),
                  slab);
   }
   return labels;
-}
-
-void write_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type) {
-  const std::string ending = ending_of(file);
-  if (ending == ".raw") {
-    write_file(sidecar_of(file),
-               fmt::format("dims {} {} {}\ntype {}\norder little\n", volume.dims[0], volume.dims[1],
-                           volume.dims[2], name_of(type)));
-    return write_file(file, encode_numbers(volume.values, type));
-  }
-  if (ending == ".npy") {
-    std::string header =
-        fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}, {}), }}",
-                    numpy_name_of(type), volume.dims[2], volume.dims[1], volume.dims[0]);
-    while ((10 + header.size() + 1) % 64 != 0) header += ' ';
-    header += '\n';
-    const std::string size{static_cast<char>(header.size() & 255U),
-                           static_cast<char>(header.size() >> 8U)};
-    const std::string numbers = encode_numbers(volume.values, type);
-    const std::array<std::string_view, 4> parts{std::string_view{"\x93NUMPY\x01\x00", 8}, size,
-                                                header, numbers};
-    return write_file(file, parts);
-  }
-  if (ending == ".h5" || ending == ".hdf5") return write_hdf5_volume(file, volume, type);
-  if (!needs_ct(ending)) refuse_ending(file);
-  write_itk_volume(file, volume, type);
 }
 
 GrayVolume to_gray(const LabelVolume& labels) {

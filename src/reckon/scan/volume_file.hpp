@@ -59,18 +59,15 @@ struct StoredVolume : VolumeOutline {
 ///                 `dims NX NY NZ`, `type uint16`, `order little` (or big)
 ///   .npy        NumPy; the last axis is x
 ///   .h5 .hdf5   a dataset of three dimensions, the last of which is x
-///   .mha .mhd   MetaImage       (needs the component `ct`)
-///   .nrrd .nhdr NRRD            (likewise)
-///   .tif .tiff  a multi-page file, or a folder of slices in the order of their names (likewise)
+///   .mha .mhd   MetaImage, plain or compressed
+///   .nrrd .nhdr NRRD, raw or gzip
+///   .tif .tiff  a file of several pages, or a folder of slices in the order of their names
 ///
-/// Layers are read as they are asked for, but for MetaImage and NRRD with compressed numbers and
-/// multi-page TIFF files that are not plain: these are unpacked at once, in memory.
+/// Layers are read and unpacked as they are asked for, which is fastest from the first to the last.
 ///
 /// Throws Error when the file is damaged, cut short, of another number of dimensions, its slices
-/// differ in size, the voxel that it tells is not that of the request, or it must be unpacked and
-/// does not fit into `memory` [bytes; 0: no limit].
-[[nodiscard]] std::unique_ptr<VolumeReader> open_volume(const VolumeRequest& request,
-                                                        std::uint64_t memory = 0);
+/// differ in size, or the voxel that it tells is not that of the request.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_volume(const VolumeRequest& request);
 /// All of a volume. Throws Error also when it holds values that are not finite.
 [[nodiscard]] StoredVolume read_volume(const VolumeRequest& request);
 /// Likewise, from file to file. `on_layers` sees it pass by.
@@ -79,8 +76,24 @@ struct StoredVolume : VolumeOutline {
 /// A volume of labels: whole numbers not below zero. Throws Error when a value is not.
 [[nodiscard]] LabelsOnDisk load_labels(const VolumeRequest& request, const Workspace& work);
 
-/// Writes a volume, in the format of its ending, as numbers of `type`: rounded to integers and
-/// clamped to their range. A .raw gets its sidecar. TIFF files are multi-page.
+/// Takes a volume from its first layer to its last. Its file appears when it is complete.
+class VolumeWriter {
+ public:
+  virtual ~VolumeWriter() = default;
+
+  /// The next layers across z. Throws Error when the disk does not take them.
+  virtual void write_layers(const GrayVolume& layers) = 0;
+  /// After the last of them.
+  virtual void finish() = 0;
+};
+
+/// A volume's file, in the format of its ending (.h5, .npy, .raw, .mha, .nrrd or .tif), of numbers
+/// of `type`: rounded to integers and clamped to their range. A .raw gets its sidecar. TIFF files
+/// have a page per layer.
+[[nodiscard]] std::unique_ptr<VolumeWriter> create_volume(const std::filesystem::path& file,
+                                                          const VoxelDims& dims, double voxel,
+                                                          VoxelType type);
+/// All of it at once.
 void write_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type);
 
 /// Labels as a volume to be written or looked at. Throws Error when there are more than 2^24.

@@ -32,10 +32,6 @@ namespace reckon {
 void check_dims(const std::array<std::int64_t, 3>& dims, std::uint64_t most,
                 const std::string& place);
 
-[[nodiscard]] std::unique_ptr<VolumeReader> open_hdf5_volume(const std::filesystem::path& file,
-                                                             const std::string& dataset);
-void write_hdf5_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type);
-
 /// What the head of a file says, or what stands for it. Heads of MetaImage and NRRD are read by
 /// ourselves: the libraries for these formats do not survive every damaged one, and take less than
 /// a whole file for whole.
@@ -60,31 +56,35 @@ inline constexpr std::size_t longest_header = 131072;
 /// Throws Error unless the numbers take just `bytes`.
 void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::string& place);
 
-/// A volume whose layers lie in a file as they are, each from its own byte on.
-[[nodiscard]] std::unique_ptr<VolumeReader> open_plain_volume(
-    const std::filesystem::path& file, const VolumeHeader& header,
-    std::vector<std::uint64_t> layer_starts);
-/// Likewise, one behind the other; throws Error unless they fill the file.
-[[nodiscard]] std::unique_ptr<VolumeReader> open_plain_volume(const std::filesystem::path& file,
+/// What a header says, once its dimensions were checked.
+[[nodiscard]] VolumeOutline outline_of(const VolumeHeader& header);
+
+/// A volume whose numbers lie in a file as they are, one behind the other from the header's
+/// `data_start` on. Throws Error unless they end with the file.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_plain_volume(std::shared_ptr<const ByteFile> file,
                                                               const VolumeHeader& header);
+/// Likewise, as zlib or gzip packed them. Reading throws Error when they are damaged, cut short, or
+/// not as many as the header says.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_packed_volume(std::shared_ptr<const ByteFile> file,
+                                                               const VolumeHeader& header);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_hdf5_volume(const std::filesystem::path& file,
+                                                             const std::string& dataset);
+/// A file of several pages, compressed or not.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_tiff_volume(const std::filesystem::path& file);
+/// Files of one page each, in this order.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_tiff_slices(
+    std::vector<std::filesystem::path> files);
 
-/// The pages of a TIFF file. Throws Error unless all are there and of one size.
-struct TiffPages {
-  VolumeHeader header;                      ///< only if they are plain
-  std::vector<std::uint64_t> layer_starts;  ///< likewise; else empty
-  std::uint64_t count{0};
-};
-[[nodiscard]] TiffPages read_tiff_pages(const std::filesystem::path& path);
+// Writing: an outline's `spacing` is the voxel's edge in metres.
 
-// Those of the component `ct`.
-
-/// TIFF, or MetaImage or NRRD with compressed numbers, by the ending. Throws Error when it does not
-/// fit into `memory` [bytes; 0: no limit].
-[[nodiscard]] std::unique_ptr<VolumeReader> unpack_itk_volume(const std::filesystem::path& file,
-                                                              std::uint64_t memory);
-/// Slices of one volume, in this order.
-[[nodiscard]] std::unique_ptr<VolumeReader> open_itk_slices(
-    const std::vector<std::filesystem::path>& files);
-void write_itk_volume(const std::filesystem::path& file, const GrayVolume& volume, VoxelType type);
+[[nodiscard]] std::unique_ptr<VolumeWriter> create_hdf5_volume(const std::filesystem::path& file,
+                                                               const VolumeOutline& what);
+[[nodiscard]] std::unique_ptr<VolumeWriter> create_tiff_volume(const std::filesystem::path& file,
+                                                               const VolumeOutline& what);
+[[nodiscard]] std::string metaimage_header(const VolumeOutline& what);
+[[nodiscard]] std::string nrrd_header(const VolumeOutline& what);
+[[nodiscard]] std::filesystem::path sidecar_of(const std::filesystem::path& file);
+/// Throws Error.
+[[noreturn]] void refuse_unwritten(const std::filesystem::path& file);
 
 }  // namespace reckon

@@ -66,6 +66,14 @@ void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::st
                 "Check dimensions and type.");
 }
 
+VolumeOutline outline_of(const VolumeHeader& header) {
+  VolumeOutline outline{{}, header.type, header.spacing};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    outline.dims[axis] = static_cast<std::int32_t>(header.dims[axis]);
+  }
+  return outline;
+}
+
 VolumeHeader parse_npy_header(std::string_view bytes, const std::string& name) {
   constexpr std::string_view magic{"\x93NUMPY", 6};
   if (bytes.size() < 12 || !bytes.starts_with(magic)) {

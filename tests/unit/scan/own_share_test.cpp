@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reckon/scan/scanner.hpp"
+#include "reckon/scan/blur.hpp"
 
 namespace reckon {
 namespace {

@@ -111,6 +111,41 @@ TEST(Scanner, AnyNumberOfThreadsGivesTheSameBits) {
   EXPECT_TRUE(one.labels.values == three.labels.values);
 }
 
+TEST(Scanner, SlabsWithinAnyMemoryGiveTheBitsOfTheWhole) {
+  const TestAssembly assembly = testing::bumpy_assembly(2, 1, 3);
+  for (const double blur : {0.0, 0.8, 2.5}) {
+    ScannerSettings settings;
+    settings.voxel = 90e-6;
+    settings.blur = blur;
+    settings.beam_hardening = 0.1;
+    const SimulatedScan whole = scan_assembly(assembly.grains, assembly.reader(), settings);
+    const Scanner scanner{assembly.grains, assembly.reader(), settings};
+    EXPECT_EQ(scanner.grains(), whole.grains);
+    const VoxelDims& dims = scanner.dims();
+    const auto layer = static_cast<std::size_t>(dims[0] * dims[1]);
+    const auto margins = static_cast<std::size_t>(2 * scanner.margin());
+    for (const std::size_t layers : {1U, 2U, 7U, 1000U}) {
+      SCOPED_TRACE(::testing::Message() << "blur " << blur << ", slabs of " << layers);
+      const Workspace work{{}, 40 * layer * (margins + layers), 0};
+      std::vector<float> gray;
+      std::vector<std::uint32_t> labels;
+      for (const Box& slab : work.slabs(dims, scanner.margin())) {
+        EXPECT_LE(slab.dims[2], static_cast<std::int32_t>(layers));
+        const ScannedLayers part = scanner.scan(slab);
+        EXPECT_EQ(part.gray.box(), slab);
+        gray.insert(gray.end(), part.gray.values.begin(), part.gray.values.end());
+        labels.insert(labels.end(), part.labels.values.begin(), part.labels.values.end());
+      }
+      EXPECT_TRUE(gray == whole.gray.values);
+      EXPECT_TRUE(labels == whole.labels.values);
+    }
+    if (margins == 0) continue;
+    const Workspace small{{}, 40 * layer * margins, 0};
+    test::expect_error([&] { (void)small.slabs(dims, scanner.margin()); },
+                       {"--memory", "too small", "layers at once"});
+  }
+}
+
 TEST(Scanner, RefusesWhatCannotBeScanned) {
   const TestAssembly ball = one_ball(1);
   const auto scan = [&](const ScannerSettings& settings) {

@@ -36,6 +36,7 @@ class Reckon(CMakePackage):
     depends_on("cli11@2.3:")
     depends_on("highway@1:")
     depends_on("zlib-api")
+    depends_on("libtiff@4.5:")
     depends_on("mpi", when="+mpi")
     depends_on("zoltan", when="+zoltan")
     depends_on("cpp-httplib@0.11:", when="+report")
