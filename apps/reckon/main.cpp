@@ -22,6 +22,7 @@
 #include "paraview_command.hpp"
 #include "reckon/core/build_info.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/core/hdf5_handle.hpp"
 #include "reckon/io/nearest_name.hpp"
 #include "reckon/io/run.hpp"
 #include "reckon/parallel/communicator.hpp"
@@ -167,6 +168,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
 int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   using namespace reckon::app;
   restart_with_settings(argv);
+  reckon::skip_hdf5_cleanup_at_exit();
   if (!started_by_launcher()) return run_command_line(argc, argv, {});
   try {
     const reckon::ParallelSession session{argc, argv};

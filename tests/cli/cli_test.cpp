@@ -70,6 +70,18 @@ TEST_F(CliTest, ManualPageAndCompletionKnowEveryCommand) {
   EXPECT_EQ(completed("reckon report \"\"", 2), "\n");  // file names are bash's own business
 }
 
+/// HDF5 would crash at the end over a file that it could not close.
+TEST_F(CliTest, AFullDiskEndsInAMessage) {
+  ASSERT_EQ(reckon({"run", "scene.toml", "--steps", "1"}).code, 0);
+  // A limit on the length of files stands for the disk's.
+  const std::string scan = RECKON_PROGRAM " grains scan scene.run --voxel 0.1mm --out scan";
+  const Outcome outcome =
+      outcome_of(start_line({"/bin/bash", "-c", "trap '' XFSZ; ulimit -f 20; " + scan}));
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("volume.h5: the volume could not be written"), std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(CliTest, AReportIsOneFileAndNamesWhatIsWrong) {
   ASSERT_EQ(reckon({"run", "scene.toml", "--steps", "100"}).code, 0);
   const Outcome made = reckon({"report", "scene.run", "--frames", "1"});

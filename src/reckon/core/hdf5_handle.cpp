@@ -19,6 +19,8 @@ std::recursive_mutex& hdf5_mutex() {
 
 }  // namespace
 
+void skip_hdf5_cleanup_at_exit() { H5dont_atexit(); }
+
 QuietHdf5::QuietHdf5() : lock_{hdf5_mutex()} {
   H5Eget_auto2(H5E_DEFAULT, &report_, &report_data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

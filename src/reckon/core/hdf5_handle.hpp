@@ -27,6 +27,11 @@ class Hdf5Handle {
   int (*close_)(std::int64_t);
 };
 
+/// For programs, before anything else of HDF5: keeps the library from tidying up when the program
+/// exits, which crashes when a full disk has kept a file from being closed. We close files where
+/// they are used. Not for code in a process of somebody else's, who may count on it.
+void skip_hdf5_cleanup_at_exit();
+
 /// For the time of a call: the library, which serves one thread at a time, is this thread's alone,
 /// and keeps its errors to itself. (It prints them unless told otherwise.)
 class QuietHdf5 {
