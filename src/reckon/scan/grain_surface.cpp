@@ -29,12 +29,11 @@ constexpr double volume_tolerance = 1e-4;
 constexpr int inner_layers = 2;  // of a grain, left out of its solid level
 constexpr std::uint64_t fewest_inner = 30;
 
-/// The piece of the volume around one grain.
+/// The piece of the volume around one grain; parts of it may lie outside.
 struct Piece {
-  std::array<std::int32_t, 3> low{};  // in the volume; may lie outside
-  GrayVolume share;                   // solid shares of the denoised volume
-  GrayVolume ownership;               // 1: grain, 0: neighbours, 1/2: void
-  double gray_volume{0};              // [voxels]
+  GrayVolume share;       // solid shares of the denoised volume
+  GrayVolume ownership;   // 1: grain, 0: neighbours, 1/2: void
+  double gray_volume{0};  // [voxels]
   double solid_gray{0};
 };
 
@@ -69,33 +68,25 @@ double own_solid_gray(const SegmentedScan& scan, std::uint32_t label, const Labe
 
 Piece cut_out(const SegmentedScan& scan, std::uint32_t label, const LabelledGrain& grain) {
   Piece piece;
-  std::array<std::int32_t, 3> dims{};
+  Box box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    piece.low[axis] = grain.low[axis] - padding;
-    dims[axis] = grain.high[axis] - grain.low[axis] + 1 + 2 * padding;
+    box.low[axis] = grain.low[axis] - padding;
+    box.dims[axis] = grain.high[axis] - grain.low[axis] + 1 + 2 * padding;
   }
-  const double voxel = scan.labels->voxel;
-  piece.share = GrayVolume{dims, voxel};
-  piece.ownership = GrayVolume{dims, voxel, 0.5F};
+  piece.share = GrayVolume{box, scan.labels->voxel};
+  piece.ownership = GrayVolume{piece.share, 0.5F};
   piece.solid_gray = own_solid_gray(scan, label, grain);
   GrayLevels levels = scan.levels;
   levels.solid_gray = piece.solid_gray;
-  std::size_t at = 0;
-  for (std::int32_t k = 0; k < dims[2]; ++k) {
-    for (std::int32_t j = 0; j < dims[1]; ++j) {
-      for (std::int32_t i = 0; i < dims[0]; ++i, ++at) {
-        const std::int32_t x = piece.low[0] + i;
-        const std::int32_t y = piece.low[1] + j;
-        const std::int32_t z = piece.low[2] + k;
-        if (!scan.labels->holds(x, y, z)) continue;
-        const std::size_t v = scan.labels->index(x, y, z);
-        const std::uint32_t owner = scan.territories->values[v];
-        piece.share.values[at] = static_cast<float>(levels.share(scan.denoised->values[v]));
-        piece.ownership.values[at] = owner == label ? 1.0F : owner != 0 ? 0.0F : 0.5F;
-        if (owner == label) piece.gray_volume += levels.share(scan.raw->values[v]);
-      }
-    }
-  }
+  for_each_voxel(box, [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+    if (!scan.labels->holds(i, j, k)) return;
+    const std::size_t v = scan.labels->index(i, j, k);
+    const std::size_t at = piece.share.index(i, j, k);
+    const std::uint32_t owner = scan.territories->values[v];
+    piece.share.values[at] = static_cast<float>(levels.share(scan.denoised->values[v]));
+    piece.ownership.values[at] = owner == label ? 1.0F : owner != 0 ? 0.0F : 0.5F;
+    if (owner == label) piece.gray_volume += levels.share(scan.raw->values[v]);
+  });
   return piece;
 }
 
@@ -127,12 +118,13 @@ void close_at_edges(LevelSet& grid) {
 
 /// A level set of the grain in solid shares: 0 where its own share is `level`, or at the border
 /// with its neighbours, whichever lies farther inside.
-LevelSet level_set_of(const OwnShare& own, const std::array<std::int32_t, 3>& low, double level) {
+LevelSet level_set_of(const OwnShare& own, double level) {
   LevelSet grid;
   grid.dims = own.share.dims;
   grid.spacing = own.share.voxel;
   for (int axis = 0; axis < 3; ++axis) {
-    grid.origin_body[axis] = (low[static_cast<std::size_t>(axis)] + 0.5) * own.share.voxel;
+    grid.origin_body[axis] =
+        (own.share.low[static_cast<std::size_t>(axis)] + 0.5) * own.share.voxel;
   }
   grid.values.resize(own.share.values.size());
   const auto drawn_at = static_cast<float>(level);
@@ -204,7 +196,7 @@ GrainSurface extract_grain(const SegmentedScan& scan, std::uint32_t label,
 
   const auto error_at = [&](double level) {
     surface.level = level;
-    surface.mesh_world = largest_component(extract_surface(level_set_of(own, piece.low, level)));
+    surface.mesh_world = largest_component(extract_surface(level_set_of(own, level)));
     return enclosed_volume(surface.mesh_world) / surface.gray_volume - 1;
   };
   // Secants. A whole share moves the surface by about two voxels, which tells the first step.

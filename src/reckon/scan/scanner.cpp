@@ -33,8 +33,8 @@ void require(bool good, const char* setting, double value, const char* range) {
 
 }  // namespace
 
-/// A grain as the scanner meets it: its grid and its pose in the volume.
-struct Scanner::Body {
+/// Its grid and its pose in the volume.
+struct ScannedBody {
   LevelSetView grid;
   Mat3 to_world;
   Vec3 position;
@@ -42,7 +42,7 @@ struct Scanner::Body {
   double lipschitz{1};
   std::uint32_t label{0};
 
-  /// The level set at a point of the volume; outside the grid, where nothing is solid, a spacing.
+  /// The level set at a point of the volume; infinite outside the grid, where nothing is solid.
   [[nodiscard]] double phi(const Vec3& world) const {
     const LevelSetView::Sample sample = grid.sample(transposed_times(to_world, world - position));
     return sample.inside_grid ? sample.phi : std::numeric_limits<double>::infinity();
@@ -52,8 +52,7 @@ struct Scanner::Body {
 namespace {
 
 /// Which points of a voxel are solid.
-template <class Body>
-std::uint64_t solid_points(const Body& body, const Vec3& center, double voxel) {
+std::uint64_t solid_points(const ScannedBody& body, const Vec3& center, double voxel) {
   std::uint64_t points = 0;
   std::uint64_t bit = 1;
   for (int c = 0; c < points_per_edge; ++c) {
@@ -68,8 +67,7 @@ std::uint64_t solid_points(const Body& body, const Vec3& center, double voxel) {
 }
 
 /// Fills layer k of the volume with solid shares, and with labels where they are wanted.
-template <class Body>
-void fill_layer(const std::vector<Body>& bodies, bool partial_volume, std::int32_t k,
+void fill_layer(const std::vector<ScannedBody>& bodies, bool partial_volume, std::int32_t k,
                 GrayVolume& gray, LabelVolume& labels) {
   const double voxel = gray.voxel;
   const std::size_t first = gray.index(0, 0, k);
@@ -78,7 +76,7 @@ void fill_layer(const std::vector<Body>& bodies, bool partial_volume, std::int32
   std::vector<std::uint64_t> points(layer, 0);
   std::vector<double> deepest(layer, 0);
   const double z = (k + 0.5) * voxel;
-  for (const Body& body : bodies) {
+  for (const ScannedBody& body : bodies) {
     const double reach = body.radius + voxel;
     if (std::abs(z - body.position.z) > reach) continue;
     const double half_diagonal = 0.87 * voxel * body.lipschitz;

@@ -40,6 +40,9 @@ struct ScannedLayers {
   LabelVolume labels;
 };
 
+/// A grain as the scanner meets it.
+struct ScannedBody;
+
 /// Scans an assembly: what an X-ray tomograph would make of it.
 ///
 /// 1. Solid share of each voxel: 4 x 4 x 4 points in each voxel near a surface are looked up in
@@ -70,13 +73,11 @@ class Scanner {
   [[nodiscard]] ScannedLayers scan(const Box& slab) const;
 
  private:
-  struct Body;
-
   ScannerSettings settings_;
   VoxelDims dims_{0, 0, 0};
   std::vector<GrainState> grains_;
   std::map<ShapeId, Shape> shapes_;
-  std::vector<Body> bodies_;
+  std::vector<ScannedBody> bodies_;
 };
 
 /// All of a scan, and what is known of it.

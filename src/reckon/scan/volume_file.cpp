@@ -19,10 +19,6 @@ namespace {
 
 constexpr double most_labels = 16777216;  // a float counts so far
 
-std::string ending_of(const std::filesystem::path& file) {
-  return lower_case(file.extension().string());
-}
-
 bool is_tiff(const std::filesystem::path& file) {
   const std::string ending = ending_of(file);
   return ending == ".tif" || ending == ".tiff";
@@ -121,6 +117,10 @@ void check_spacing(const std::optional<double>& spacing, double voxel, const std
 }
 
 }  // namespace
+
+std::string ending_of(const std::filesystem::path& file) {
+  return lower_case(file.extension().string());
+}
 
 void refuse_volume(const std::string& place, std::string problem, std::string reason,
                    std::string fix) {

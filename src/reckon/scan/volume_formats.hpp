@@ -32,6 +32,9 @@ namespace reckon {
 void check_dims(const std::array<std::int64_t, 3>& dims, std::uint64_t most,
                 const std::string& place);
 
+/// What a file's name ends in, in small letters: ".tif".
+[[nodiscard]] std::string ending_of(const std::filesystem::path& file);
+
 /// What the head of a file says, or what stands for it. Heads of MetaImage and NRRD are read by
 /// ourselves: the libraries for these formats do not survive every damaged one, and take less than
 /// a whole file for whole.

@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/scan/volume_formats.hpp"
 
@@ -74,7 +73,7 @@ std::filesystem::path sidecar_of(const std::filesystem::path& file) {
 
 std::unique_ptr<VolumeWriter> create_volume(const std::filesystem::path& file,
                                             const VoxelDims& dims, double voxel, VoxelType type) {
-  const std::string ending = lower_case(file.extension().string());
+  const std::string ending = ending_of(file);
   const VolumeOutline what{dims, type, voxel};
   const auto plain = [&](const std::string& header) {
     return std::make_unique<PlainWriter>(file, type, header);

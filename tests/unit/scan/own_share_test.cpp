@@ -82,7 +82,8 @@ TEST(OwnShare, TheBorderOfTwoPressedBallsIsThePlaneBetweenThem) {
     const double beyond = dot(from_contact, direction);
     if (norm(from_contact - beyond * direction) > 5) return;
     if (std::abs(beyond) < 0.2 || std::abs(beyond) > radius) return;
-    EXPECT_EQ(own.part.values[own.part.index(i, j, k)]<0.5F, beyond> 0) << beyond;
+    const bool neighbours = own.part.values[own.part.index(i, j, k)] < 0.5F;
+    EXPECT_EQ(neighbours, beyond > 0) << beyond;
   });
 }
 
