@@ -9,7 +9,7 @@ set -euo pipefail
 reckon=$1 work=$2
 shift 2
 here=$(cd "$(dirname "$0")" && pwd)
-for program in pvpython xvfb-run; do
+for program in pvpython Xvfb; do
   command -v "$program" >/dev/null ||
     { echo "skipped: needs $program (tools/install_dependencies.sh paraview)"; exit 77; }
 done
@@ -29,17 +29,34 @@ fi
 cp "$here/cell.toml" .
 "$reckon" run cell.toml --threads 1 --quiet
 "$reckon" paraview cell.run
-# Debian's ParaView draws through X only; a screen in memory will do, one for all. It aborts (134) when the screen that
-# it was given goes down at once, as it may where another program's has just ended.
-for attempt in 1 2 3 4 5; do
+# Debian's ParaView draws through X only; a screen in memory will do. It chooses a free number itself and tells it when
+# it can be drawn on. That of xvfb-run guesses a number and keeps its key among the temporary files of others; where
+# either is gone, ParaView aborts.
+draw_on_new_screen() {
+  local screen number code=0
+  coproc screen_in_memory { exec Xvfb -displayfd 1 -noreset -nolisten tcp -screen 0 1600x1200x24 2>screen.log; }
+  screen=$!
+  if read -r number <&"${screen_in_memory[0]}"; then
+    DISPLAY=:$number bash -e -c '
+      pvpython scene.run/paraview/state.py state.png
+      pvpython scene.run/paraview/state.py rank.png rank 0
+      pvpython cell.run/paraview/state.py cell.png
+      pvpython "$1" scene.run "$2" state.png rank.png cell.run cell.png' - "$here/check_run.py" "$ranks" || code=$?
+  else
+    code=134
+  fi
+  kill "$screen" 2>/dev/null || true
+  wait "$screen" || true
+  return "$code"
+}
+
+# A signal's code tells of ParaView ended by its screen, not by what it was shown: then once more.
+for attempt in 1 2 3; do
   code=0
-  xvfb-run -a -s "-screen 0 1600x1200x24" bash -e -c '
-    pvpython scene.run/paraview/state.py state.png
-    pvpython scene.run/paraview/state.py rank.png rank 0
-    pvpython cell.run/paraview/state.py cell.png
-    pvpython "$1" scene.run "$2" state.png rank.png cell.run cell.png' - "$here/check_run.py" "$ranks" || code=$?
-  [[ $code == 134 ]] || exit "$code"
-  echo "no screen in attempt $attempt"
+  draw_on_new_screen || code=$?
+  ((code >= 128)) || exit "$code"
+  echo "ParaView ended with code $code in attempt $attempt; its screen said:"
+  cat screen.log
   sleep 2
 done
 exit "$code"
