@@ -28,7 +28,7 @@ if [[ ! -e $home/unpacked ]]; then
     -o Dir::State::status="$home/status" -o Dir::Cache="$home/cache")
   "${apt[@]}" -qq update
   "${apt[@]}" -qq install --download-only -y --no-install-recommends libhdf5-dev libfmt-dev \
-    libgtest-dev libhwy-dev libtomlplusplus-dev libcli11-dev libeigen3-dev
+    libgtest-dev libhwy-dev libtomlplusplus-dev libcli11-dev libeigen3-dev libtiff-dev zlib1g-dev
   for package in "$home"/cache/archives/*.deb; do dpkg -x "$package" "$root"; done
   # The cross compiler has a C library of its own.
   rm -rf "$root/usr/lib/$triplet"/{libc,libm,libpthread,libdl}.{so,a} "$root/usr/include_c" \
@@ -36,7 +36,8 @@ if [[ ! -e $home/unpacked ]]; then
   mkdir "$root/usr/include_c"
   mv "$root/usr/include"/* "$root/usr/include_c/"
   mkdir -p "$root/usr/include/$triplet"
-  for library in fmt hdf5 gtest gmock hwy eigen3 CLI toml++ "$triplet/curl" "$triplet/openssl"; do
+  for library in fmt hdf5 gtest gmock hwy eigen3 CLI toml++ zlib.h \
+    "$triplet"/{curl,openssl,zconf.h,tiff.h,tiffconf.h,tiffio.h,tiffvers.h}; do
     [[ ! -e $root/usr/include_c/$library ]] || mv "$root/usr/include_c/$library" "$root/usr/include/$library"
   done
   touch "$home/unpacked"
@@ -53,7 +54,7 @@ cmake -S . -B "$home/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_CROSSCOMPILING_EMULATOR="$(IFS=';'; echo "${emulator[*]}")" \
   -DHDF5_C_LIBRARY_hdf5="$libraries/libhdf5_serial.so" \
   -DHDF5_C_INCLUDE_DIR="$root/usr/include/hdf5/serial" \
-  -DRECKON_MPI=OFF -DRECKON_CT=OFF
+  -DRECKON_MPI=OFF -DRECKON_CT=OFF -DRECKON_PYTHON=OFF
 cmake --build "$home/build" --target "${tests[@]}" -j "$(nproc)"
 for test in "${tests[@]}"; do
   "${emulator[@]}" "$home/build/tests/unit/$test" --gtest_brief=1
