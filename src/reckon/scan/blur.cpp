@@ -3,7 +3,10 @@
 #include "reckon/scan/blur.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <vector>
 
 #include "reckon/math/portable.hpp"
@@ -12,50 +15,79 @@
 namespace reckon {
 namespace {
 
-/// Filters `width` lines that lie side by side: their numbers stand in rows, `stride` apart.
-/// The vectors are scratch.
-void blur_lines(float* values, std::size_t width, std::size_t length, std::size_t stride,
-                const std::vector<float>& weights, std::vector<float>& padded,
-                std::vector<float>& sum) {
-  const std::size_t reach = weights.size() - 1;
-  padded.resize(width * (length + 2 * reach));
-  for (std::size_t n = 0; n < length + 2 * reach; ++n) {
-    const std::size_t inside = std::clamp(n, reach, reach + length - 1) - reach;
-    std::copy_n(values + inside * stride, width, padded.data() + n * width);
+using Lanes [[gnu::vector_size(4 * sizeof(float))]] = float;
+constexpr std::size_t vectors = 4;  // at once
+constexpr std::size_t lanes = vectors * sizeof(Lanes) / sizeof(float);
+
+Lanes load(const float* from) {
+  Lanes numbers;
+  std::memcpy(&numbers, from, sizeof numbers);
+  return numbers;
+}
+
+/// Weighs numbers: each with those that stand at multiples of `step` before and after it.
+void weigh(const float* middle, std::size_t count, std::size_t step,
+           const std::vector<float>& weights, float* out) {
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    std::array<Lanes, vectors> sum;
+    for (std::size_t n = 0; n < vectors; ++n) sum[n] = weights[0] * load(middle + i + 4 * n);
+    for (std::size_t r = 1; r < weights.size(); ++r) {
+      const float* const before = middle + i - r * step;
+      const float* const after = middle + i + r * step;
+      for (std::size_t n = 0; n < vectors; ++n) {
+        sum[n] += weights[r] * (load(before + 4 * n) + load(after + 4 * n));
+      }
+    }
+    std::memcpy(out + i, sum.data(), sizeof sum);
   }
-  sum.resize(width * length);
-  const float* const middle = padded.data() + reach * width;
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = weights[0] * middle[i];
-  for (std::size_t r = 1; r <= reach; ++r) {
-    const float weight = weights[r];
-    const float* const before = middle - r * width;
-    const float* const after = middle + r * width;
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * (before[i] + after[i]);
-  }
-  for (std::size_t n = 0; n < length; ++n) {
-    std::copy_n(sum.data() + n * width, width, values + n * stride);
+  for (; i < count; ++i) {
+    float sum = weights[0] * middle[i];
+    for (std::size_t r = 1; r < weights.size(); ++r) {
+      sum += weights[r] * (middle[i - r * step] + middle[i + r * step]);
+    }
+    out[i] = sum;
   }
 }
 
-/// Filters all lines along one axis.
-void blur_axis(GrayVolume& volume, std::size_t axis, const std::vector<float>& weights) {
+/// Filters `width` lines that lie side by side: their numbers stand in rows, `stride` apart.
+/// `padded` is scratch.
+void blur_lines(float* values, std::size_t width, std::size_t length, std::size_t stride,
+                const std::vector<float>& weights, std::vector<float>& padded) {
+  const std::size_t reach = weights.size() - 1;
+  padded.resize(width * (length + 2 * reach));
+  float* const middle = padded.data() + reach * width;
+  // Rows without gaps are one.
+  const bool whole = stride == width;
+  const std::size_t rows = whole ? 1 : length;
+  const std::size_t row = whole ? width * length : width;
+  for (std::size_t n = 0; n < rows; ++n) std::copy_n(values + n * stride, row, middle + n * row);
+  const float* const last = middle + (length - 1) * width;
+  for (std::size_t r = 1; r <= reach; ++r) {
+    std::copy_n(middle, width, middle - r * width);
+    std::copy_n(last, width, middle + (length - 1 + r) * width);
+  }
+  for (std::size_t n = 0; n < rows; ++n) {
+    weigh(middle + n * row, row, width, weights, values + n * stride);
+  }
+}
+
+void blur_with(GrayVolume& volume, const std::vector<float>& weights) {
   const auto size = [&](std::size_t a) { return static_cast<std::size_t>(volume.dims[a]); };
   const std::size_t row = size(0);
   const std::size_t layer = row * size(1);
   float* const values = volume.values.data();
-  parallel_for(size(axis == 2 ? 1 : 2), 1, [&](std::size_t n) {
+  parallel_for(size(2), 1, [&](std::size_t k) {
     std::vector<float> padded;
-    std::vector<float> sum;
-    const auto blur = [&](float* first, std::size_t width, std::size_t length, std::size_t stride) {
-      blur_lines(first, width, length, stride, weights, padded, sum);
-    };
-    if (axis == 2) {
-      blur(values + n * row, row, size(2), layer);
-    } else if (axis == 1) {
-      blur(values + n * layer, row, size(1), row);
-    } else {
-      for (std::size_t j = 0; j < size(1); ++j) blur(values + n * layer + j * row, 1, row, 1);
+    float* const first = values + k * layer;
+    for (std::size_t j = 0; j < size(1); ++j) {
+      blur_lines(first + j * row, 1, row, 1, weights, padded);
     }
+    blur_lines(first, row, size(1), row, weights, padded);
+  });
+  parallel_for(size(1), 1, [&](std::size_t j) {
+    std::vector<float> padded;
+    blur_lines(values + j * row, row, size(2), layer, weights, padded);
   });
 }
 
@@ -78,7 +110,7 @@ void blur_volume(GrayVolume& volume, double deviation) {
   std::vector<float> shares;
   shares.reserve(weights.size());
   for (const double weight : weights) shares.push_back(static_cast<float>(weight / sum));
-  for (std::size_t axis = 0; axis < 3; ++axis) blur_axis(volume, axis, shares);
+  blur_with(volume, shares);
 }
 
 }  // namespace reckon
