@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the plots of the examples share: reading history.csv, and plots below each other."""
+"""What the plots of the examples share: reading history.csv and files of fields, and plots below each other."""
 import csv
+import re
 from pathlib import Path
 
 import matplotlib
@@ -29,6 +30,25 @@ def last_stage(run: str | Path) -> Columns:
     """The rows of a run's last stage."""
     columns = history(run)
     return stage(columns, columns["stage"][-1])
+
+
+def arrays(path: Path) -> dict[str, np.ndarray]:
+    """The named arrays of a .vtp file with raw appended data."""
+    data = path.read_bytes()
+    start = data.index(b"_", data.index(b"<AppendedData")) + 1
+    head = data[:start].decode("utf-8", "replace")
+    kinds = {"Float64": "<f8", "Float32": "<f4", "UInt32": "<u4", "UInt8": "u1", "Int64": "<i8"}
+    found = {}
+    for tag in re.findall(r"<DataArray[^>]*>", head):
+        fields = dict(re.findall(r'(\w+)="([^"]*)"', tag))
+        if fields.get("format") != "appended" or fields["type"] not in kinds:
+            continue
+        at = start + int(fields["offset"])
+        size = int.from_bytes(data[at : at + 8], "little")
+        values = np.frombuffer(data[at + 8 : at + 8 + size], kinds[fields["type"]])
+        width = int(fields.get("NumberOfComponents", 1))
+        found[fields.get("Name", "")] = values.reshape(-1, width) if width > 1 else values
+    return found
 
 
 def runs_and_labels(arguments: list[str]) -> list[tuple[str, str]]:

@@ -6,34 +6,13 @@ usage: plot_band.py RUN PICTURE [x|y]
 From the last file fields/strain_*.vtp that `reckon analyse RUN` wrote. The slice goes through the middle,
 at right angles to x or y, or, for a cylinder, as a band shows most clearly from its side.
 """
-import re
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 
-
-def arrays(path: Path) -> dict[str, np.ndarray]:
-    """The named arrays of a .vtp file with raw appended data."""
-    data = path.read_bytes()
-    start = data.index(b"_", data.index(b"<AppendedData")) + 1
-    head = data[:start].decode("utf-8", "replace")
-    kinds = {"Float64": "<f8", "Float32": "<f4", "UInt32": "<u4", "UInt8": "u1", "Int64": "<i8"}
-    found = {}
-    for tag in re.findall(r"<DataArray[^>]*>", head):
-        fields = dict(re.findall(r'(\w+)="([^"]*)"', tag))
-        if fields.get("format") != "appended" or fields["type"] not in kinds:
-            continue
-        at = start + int(fields["offset"])
-        size = int.from_bytes(data[at : at + 8], "little")
-        values = np.frombuffer(data[at + 8 : at + 8 + size], kinds[fields["type"]])
-        width = int(fields.get("NumberOfComponents", 1))
-        found[fields.get("Name", "")] = values.reshape(-1, width) if width > 1 else values
-    return found
+sys.path.append(str(Path(__file__).resolve().parent))
+from curves import arrays, plt
 
 
 def clearest_direction(place: np.ndarray, shear: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 data=$source/../shared/data/$name
 case "$name" in
-  settle | triaxial | triaxial-* | oedometer | isotropic | direct-shear | cemented | simple-shear | angle-of-repose | hopper)
+  settle | triaxial | triaxial-* | oedometer | isotropic | direct-shear | cemented | simple-shear | angle-of-repose | hopper | silo)
     "$reckon" grains generate --count 4 --seed 7 --d50 1mm --threads 2 -o "$work/sand.h5" ;;
   aggregate57)
     [[ -d $data ]] || { echo "skipped: needs $data"; exit 77; }
