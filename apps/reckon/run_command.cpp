@@ -27,6 +27,7 @@
 #include "reckon/parallel/on_root.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "scene_input.hpp"
+#include "standard_streams.hpp"
 #include "stop_signal.hpp"
 
 namespace reckon::app {
@@ -54,28 +55,31 @@ std::string resume_hint(const Options& options) {
                      options.folder.empty() ? "" : " --out " + options.folder);
 }
 
-void print_result(const RunReport& report, const std::filesystem::path& folder) {
+std::string result_text(const RunReport& report, const std::filesystem::path& folder) {
   const RunProgress& progress = report.progress;
   const Measurement& last = report.last;
   const auto made = static_cast<double>(progress.step - progress.first_step);
-  fmt::print("{} at step {} ({:.6g} s simulated) after {}, {:.3g} steps/s\n",
-             report.end == RunEnd::at_rest ? "came to rest" : "complete", progress.step,
-             progress.time, human_duration(progress.wall_seconds),
-             progress.wall_seconds > 0 ? made / progress.wall_seconds : 0);
-  fmt::print("  contacts {} ({} with walls), coordination number {:.3g}, unbalanced ratio {:.3g}\n",
-             last.contacts + last.wall_contacts, last.wall_contacts, last.coordination,
-             last.unbalanced_ratio);
-  fmt::print("  kinetic energy {:.4g} J, fastest grain {:.3g} m/s, deepest overlap {:.3g} m\n",
-             last.energy.translation + last.energy.rotation, last.largest_speed,
-             last.deepest_overlap);
-  fmt::print("  energy balance error {:.2g} J", report.energy_error);
+  std::string text =
+      fmt::format("{} at step {} ({:.6g} s simulated) after {}, {:.3g} steps/s\n",
+                  report.end == RunEnd::at_rest ? "came to rest" : "complete", progress.step,
+                  progress.time, human_duration(progress.wall_seconds),
+                  progress.wall_seconds > 0 ? made / progress.wall_seconds : 0);
+  text += fmt::format(
+      "  contacts {} ({} with walls), coordination number {:.3g}, unbalanced ratio {:.3g}\n",
+      last.contacts + last.wall_contacts, last.wall_contacts, last.coordination,
+      last.unbalanced_ratio);
+  text += fmt::format(
+      "  kinetic energy {:.4g} J, fastest grain {:.3g} m/s, deepest overlap {:.3g} m\n",
+      last.energy.translation + last.energy.rotation, last.largest_speed, last.deepest_overlap);
+  text += fmt::format("  energy balance error {:.2g} J", report.energy_error);
   if (report.energy_turnover > 0) {
-    fmt::print(", {:.2g} of the energy turned over",
-               std::abs(report.energy_error) / report.energy_turnover);
+    text += fmt::format(", {:.2g} of the energy turned over",
+                        std::abs(report.energy_error) / report.energy_turnover);
   }
-  fmt::print("\n{}{}", report.stages, report.performance);
-  fmt::print("  tables    {}\n  ParaView  {}\n", (folder / "history.csv").string(),
-             (folder / "grains.pvd").string());
+  text += fmt::format("\n{}{}", report.stages, report.performance);
+  text += fmt::format("  tables    {}\n  ParaView  {}\n", (folder / "history.csv").string(),
+                      (folder / "grains.pvd").string());
+  return text;
 }
 
 void print_json(const RunReport& report, const SceneConfig& scene,
@@ -167,13 +171,13 @@ void run(const Options& options, const Communicator& ranks) {
   hooks.note = [&](const std::string& text) {
     if (quiet) return;
     display.clear();
-    fmt::print("{}\n", text);
-    std::fflush(stdout);
+    say(text + '\n');
   };
   watch_stop_signals();
   if (!quiet) {
     const std::string& title = input.scene.config.title;
-    fmt::print("{} -> {}\n", title.empty() ? options.scene : title, run_options.folder.string());
+    say(fmt::format("{} -> {}\n", title.empty() ? options.scene : title,
+                    run_options.folder.string()));
   }
   RunReport report;
   try {
@@ -186,9 +190,11 @@ void run(const Options& options, const Communicator& ranks) {
   if (report.end == RunEnd::interrupted) {
     const int signal = stop_signal() == SIGINT ? SIGINT : SIGTERM;
     if (ranks.is_root()) {
-      fmt::print(stderr, "reckon: stopped by {} at step {} of {}; checkpoint written\n  {}\n",
-                 signal == SIGINT ? "Ctrl-C" : "SIGTERM or SIGUSR1", report.progress.step,
-                 report.progress.steps, resume_hint(options));
+      const std::string text =
+          fmt::format("reckon: stopped by {} at step {} of {}; checkpoint written\n  {}\n",
+                      signal == SIGINT ? "Ctrl-C" : "SIGTERM, SIGUSR1 or SIGHUP",
+                      report.progress.step, report.progress.steps, resume_hint(options));
+      std::fputs(text.c_str(), stderr);  // fmt::print would throw where the terminal is gone
     }
     throw CLI::RuntimeError{signal == SIGINT ? interrupted : terminated};
   }
@@ -197,9 +203,9 @@ void run(const Options& options, const Communicator& ranks) {
   }
   if (quiet) return;
   if (report.end == RunEnd::nothing_to_do) {
-    fmt::print("the run is complete already: nothing to do\n");
+    say("the run is complete already: nothing to do\n");
   } else {
-    print_result(report, run_options.folder);
+    say(result_text(report, run_options.folder));
   }
 }
 
@@ -239,8 +245,8 @@ void add_run_command(CLI::App& app, const Communicator& ranks) {
                   "  reckon run settle.toml --resume               after a break\n"
                   "  reckon run settle.toml --resume --steps 50000  longer\n"
                   "  mpirun -np 4 reckon run settle.toml --threads 2   4 processes\n\n"
-                  "Ctrl-C, SIGTERM and SIGUSR1 finish the step, write a checkpoint and end; a "
-                  "second one ends at once.\n\n"} +
+                  "Ctrl-C, SIGTERM, SIGUSR1 and SIGHUP finish the step, write a checkpoint and end; "
+                  "a second one ends at once.\n\n"} +
       exit_code_footer);
   command->callback([options, &ranks] { run(*options, ranks); });
 }
