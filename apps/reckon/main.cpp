@@ -43,10 +43,10 @@ std::string version() {
                      build.flags);
 }
 
-/// The subcommand that was being parsed, or the program itself.
+/// The command that was being parsed, or the program itself.
 std::string help_of(const CLI::App& app) {
   const auto used = app.get_subcommands();
-  return used.empty() ? "reckon --help" : fmt::format("reckon {} --help", used.front()->get_name());
+  return used.empty() ? app.get_name() + " --help" : app.get_name() + ' ' + help_of(*used.front());
 }
 
 /// CLI11 would only say that a command is missing; a typo deserves the name that was meant.
@@ -140,6 +140,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
   add_bench_command(app);
   add_reference_command(app);
   app.footer(std::string{"`reckon COMMAND --help` has examples.\n\n"} + exit_code_footer);
+  refuse_odd_numbers(app);
   try {
     require_run_command(ranks, argc, argv);
     require_known_command(app, argc, argv);

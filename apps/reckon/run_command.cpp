@@ -51,8 +51,8 @@ std::filesystem::path run_folder(const Options& options) {
 }
 
 std::string resume_hint(const Options& options) {
-  return fmt::format("reckon run {}{} --resume", options.scene,
-                     options.folder.empty() ? "" : " --out " + options.folder);
+  return fmt::format("reckon run {}{} --resume", shell_word(options.scene),
+                     options.folder.empty() ? "" : " --out " + shell_word(options.folder));
 }
 
 std::string result_text(const RunReport& report, const std::filesystem::path& folder) {
@@ -224,7 +224,7 @@ void add_run_command(CLI::App& app, const Communicator& ranks) {
           "no result")
       ->check(CLI::Range(1, 4096));
   command->add_option("--steps", options->steps, "Run to this step instead of what the scene says")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000'000}));
   CLI::Option* resume = command->add_flag(
       "--resume", options->resume,
       "Go on from the latest good checkpoint, to the same bits as without a break; starts anew "
@@ -239,14 +239,15 @@ void add_run_command(CLI::App& app, const Communicator& ranks) {
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->add_flag("--json", options->json, "At the end, answer in JSON, and print nothing else");
   command->footer(
-      std::string{"Examples:\n"
-                  "  reckon run settle.toml\n"
-                  "  reckon run settle.toml --out /scratch/settle --threads 8\n"
-                  "  reckon run settle.toml --resume               after a break\n"
-                  "  reckon run settle.toml --resume --steps 50000  longer\n"
-                  "  mpirun -np 4 reckon run settle.toml --threads 2   4 processes\n\n"
-                  "Ctrl-C, SIGTERM, SIGUSR1 and SIGHUP finish the step, write a checkpoint and end; "
-                  "a second one ends at once.\n\n"} +
+      std::string{
+          "Examples:\n"
+          "  reckon run settle.toml\n"
+          "  reckon run settle.toml --out /scratch/settle --threads 8\n"
+          "  reckon run settle.toml --resume               after a break\n"
+          "  reckon run settle.toml --resume --steps 50000  longer\n"
+          "  mpirun -np 4 reckon run settle.toml --threads 2   4 processes\n\n"
+          "Ctrl-C, SIGTERM, SIGUSR1 and SIGHUP finish the step, write a checkpoint and end; "
+          "a second one ends at once.\n\n"} +
       exit_code_footer);
   command->callback([options, &ranks] { run(*options, ranks); });
 }
