@@ -56,5 +56,13 @@ TEST_F(OptionsTest, AScanHasGraysThatItsTypeHolds) {
   EXPECT_TRUE(std::filesystem::exists(root_ / "scan"));
 }
 
+TEST_F(OptionsTest, StrainsThatNobodyHasAreNotZero) {
+  ASSERT_EQ(refusal({"run", "scene.toml", "--steps", "100", "--quiet"}), "");
+  const Outcome none = outcome_of(
+      start_line({RECKON_PROGRAM, "analyse", "scene.run", "--longest-edge", "1nm", "--json"}));
+  EXPECT_EQ(none.code, 0) << none.err;
+  EXPECT_NE(none.out.find("\"shear_mean\": null"), std::string::npos) << none.out;
+}
+
 }  // namespace
 }  // namespace reckon
