@@ -370,7 +370,7 @@ void Simulation::fail_on_motion() const {
                .problem = "its motion is no longer a number",
                .reason = "forces grew without bound, most often because the time step is too large "
                          "for the stiffness or grains overlapped deeply at the start",
-               .fix = "Lower time.step_fraction, or look at the last files for deep overlaps."}};
+               .fix = "Lower time.step_fraction or time.step, or look at the last files for deep overlaps."}};
 }
 
 }  // namespace reckon
