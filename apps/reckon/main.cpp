@@ -130,7 +130,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
   app.require_subcommand(1);
   add_grains_command(app);
   add_check_command(app);
-  add_run_command(app, ranks);
+  add_run_command(app, ranks, started_by_launcher());
   add_diff_command(app);
   add_report_command(app);
   add_watch_command(app);

@@ -154,7 +154,7 @@ SceneInput read_scene_on_root(const Options& options, const Communicator& ranks)
   return input;
 }
 
-void run(const Options& options, const Communicator& ranks) {
+void run(const Options& options, const Communicator& ranks, bool launched) {
   set_threads(options, ranks);
   const SceneInput input = read_scene_on_root(options, ranks);
   const bool quiet = options.quiet || options.json || !ranks.is_root();
@@ -164,7 +164,7 @@ void run(const Options& options, const Communicator& ranks) {
       .overwrite = options.overwrite,
       .steps = options.steps > 0 ? std::optional{options.steps} : std::nullopt,
       .safety_interval = 60 * options.safety_minutes};
-  ProgressDisplay display{quiet, ranks.size() == 1};
+  ProgressDisplay display{quiet, !launched};
   RunHooks hooks;
   hooks.stop_requested = [] { return stop_signal() != 0; };
   hooks.progressed = [&](const RunProgress& progress) { display.show(progress); };
@@ -211,7 +211,7 @@ void run(const Options& options, const Communicator& ranks) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, const Communicator& ranks) {
+void add_run_command(CLI::App& app, const Communicator& ranks, bool launched) {
   CLI::App* command = app.add_subcommand("run", "Run a scene, or go on with a run");
   auto options = std::make_shared<Options>();
   command->add_option("scene", options->scene, "Scene file (TOML)")->required();
@@ -249,7 +249,7 @@ void add_run_command(CLI::App& app, const Communicator& ranks) {
           "Ctrl-C, SIGTERM, SIGUSR1 and SIGHUP finish the step, write a checkpoint and end; "
           "a second one ends at once.\n\n"} +
       exit_code_footer);
-  command->callback([options, &ranks] { run(*options, ranks); });
+  command->callback([options, &ranks, launched] { run(*options, ranks, launched); });
 }
 
 }  // namespace reckon::app
