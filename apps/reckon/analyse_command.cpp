@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -31,6 +33,11 @@ void print(const RunAnalysis& done) {
   for (const StrainSummary& strain : done.strains) {
     fmt::print("{:>12}  {:>12.4f}  {:>12.4f}  {:>12.4f}\n", strain.step, strain.shear,
                strain.largest, strain.volumetric);
+  }
+  const auto is_unknown = [](const StrainSummary& strain) { return std::isnan(strain.shear); };
+  if (std::ranges::any_of(done.strains, is_unknown)) {
+    fmt::print(
+        "nan: no grain has a strain; they are too few, or farther apart than --longest-edge\n");
   }
   fmt::print("open {}\n", done.strain_index.string());
   if (!done.force_distribution.empty()) {

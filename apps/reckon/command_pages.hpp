@@ -14,6 +14,8 @@ namespace reckon::app {
 
 /// Lets `--help` of the program, and of what is added to it afterwards, say the same.
 void use_help_format(CLI::App& root);
+/// What CLI11 would take as it is: no option takes NaN, and none that counts takes -1 for 2^64 - 1.
+void refuse_odd_numbers(CLI::App& root);
 /// docs/reference/commands.md: every command with its options.
 [[nodiscard]] std::string commands_markdown(const CLI::App& root);
 /// The same as a manual page, reckon(1), in the macros of groff_man(7).

@@ -17,6 +17,6 @@ enum ExitCode : int {
 inline constexpr const char* exit_code_footer =
     "Exit codes: 0 success, 1 the input is at fault, 2 the run failed, 3 a fault of reckon "
     "itself,\n"
-    "130 or 143 stopped by Ctrl-C or SIGTERM after writing a checkpoint.";
+    "130 or 143 stopped by Ctrl-C, or by SIGTERM and the like, after writing a checkpoint.";
 
 }  // namespace reckon::app

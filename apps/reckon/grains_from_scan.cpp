@@ -13,6 +13,7 @@
 #include "grains_parts.hpp"
 #include "progress.hpp"
 #include "reckon/avatar/library_file.hpp"
+#include "reckon/core/error.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/io/placement_table.hpp"
 #include "reckon/parallel/threads.hpp"
@@ -69,6 +70,13 @@ void run(Options options) {
   segment.mask.fill = !options.no_fill;
   AvatarSettings avatars = options.avatars;
   avatars.resolution = resolution_of(options);
+  if (!options.truth.empty() &&
+      !std::filesystem::exists(std::filesystem::path{options.truth} / "library.h5")) {
+    throw Error{{.place = "--truth",
+                 .problem = fmt::format("{} holds no truth", options.truth),
+                 .reason = "there is no library.h5 in it",
+                 .fix = "Name a folder that `reckon grains scan` has written."}};
+  }
   const std::filesystem::path folder{options.folder};
   std::filesystem::create_directories(folder);
   ScanReport report{folder};

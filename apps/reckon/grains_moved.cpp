@@ -157,7 +157,7 @@ void compare(const Options& options) {
 void add_grains_moved(CLI::App& grains) {
   CLI::App* command = grains.add_subcommand(
       "moved", "How far a run has moved grains from where a table placed them, and what overlaps");
-  command->footer("Example:\n  reckon grains moved sand/placement.csv sand/relax.run");
+  command->footer("Example:\n  reckon grains moved sand/placement.csv relax.run");
   auto options = std::make_shared<Options>();
   command->add_option("placement", options->placement, "Table of poses")
       ->required()

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -107,6 +108,20 @@ void write_contacts(const std::filesystem::path& file, const std::vector<NearPai
   write_file(file, text);
 }
 
+/// Grays that a type cannot hold would all become its largest number, and the volume one gray.
+void require_grays_fit(const ScannerSettings& settings, VoxelType type) {
+  if (type == VoxelType::float32) return;
+  const double most = type == VoxelType::uint8 ? 255 : 65535;
+  for (const double gray : {settings.void_gray, settings.solid_gray}) {
+    if (gray >= 0 && gray <= most) continue;
+    throw Error{{.place = "--type",
+                 .problem = fmt::format("{} cannot hold a gray value of {}", name_of(type), gray),
+                 .reason = fmt::format("its numbers go from 0 to {}", most),
+                 .fix = fmt::format("Give another --type, or --void-gray {} --solid-gray {}, say.",
+                                    std::floor(0.15 * most), std::floor(0.6 * most))}};
+  }
+}
+
 void scan(const Options& options) {
   if (options.threads > 0) set_thread_count(options.threads);
   const auto type = voxel_type_named(options.type);
@@ -114,6 +129,7 @@ void scan(const Options& options) {
   settings.voxel = parse_length("--voxel", options.voxel);
   settings.partial_volume = !options.no_partial_volume;
   settings.validate();
+  require_grays_fit(settings, *type);
   const Assembly assembly =
       std::filesystem::is_directory(options.source) ? open_run(options) : open_scene(options);
   const Scanner scanner{assembly.grains, assembly.read_shape, settings};

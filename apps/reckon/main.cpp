@@ -10,6 +10,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "analyse_command.hpp"
@@ -29,6 +30,7 @@
 #include "reference_command.hpp"
 #include "report_command.hpp"
 #include "run_command.hpp"
+#include "standard_streams.hpp"
 #include "surfaces_command.hpp"
 #include "watch_command.hpp"
 
@@ -41,10 +43,10 @@ std::string version() {
                      build.flags);
 }
 
-/// The subcommand that was being parsed, or the program itself.
+/// The command that was being parsed, or the program itself.
 std::string help_of(const CLI::App& app) {
   const auto used = app.get_subcommands();
-  return used.empty() ? "reckon --help" : fmt::format("reckon {} --help", used.front()->get_name());
+  return used.empty() ? app.get_name() + " --help" : app.get_name() + ' ' + help_of(*used.front());
 }
 
 /// CLI11 would only say that a command is missing; a typo deserves the name that was meant.
@@ -94,7 +96,7 @@ bool started_by_launcher() {
 // NOLINTEND(concurrency-mt-unsafe)
 
 int complain(const Communicator& ranks, const std::string& problem, int code) {
-  if (ranks.is_root()) fmt::print(stderr, "reckon: error: {}\n", problem);
+  if (ranks.is_root()) std::fputs(fmt::format("reckon: error: {}\n", problem).c_str(), stderr);
   return code;
 }
 
@@ -128,7 +130,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
   app.require_subcommand(1);
   add_grains_command(app);
   add_check_command(app);
-  add_run_command(app, ranks);
+  add_run_command(app, ranks, started_by_launcher());
   add_diff_command(app);
   add_report_command(app);
   add_watch_command(app);
@@ -138,6 +140,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
   add_bench_command(app);
   add_reference_command(app);
   app.footer(std::string{"`reckon COMMAND --help` has examples.\n\n"} + exit_code_footer);
+  refuse_odd_numbers(app);
   try {
     require_run_command(ranks, argc, argv);
     require_known_command(app, argc, argv);
@@ -155,6 +158,11 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
     return end_failed(ranks, error.what(), input_at_fault);
   } catch (const std::bad_alloc&) {
     return end_failed(ranks, "not enough memory for this scene", run_failed);
+  } catch (const std::system_error& error) {  // of folders, mostly, which say which it is
+    const bool full = error.code() == std::errc::no_space_on_device;
+    return end_failed(
+        ranks, fmt::format("{}. Check the folder's permissions and the free space.", error.what()),
+        full ? run_failed : input_at_fault);
   } catch (const std::exception& error) {
     return end_failed(ranks, fmt::format("{}. This is a fault of reckon itself", error.what()),
                       internal_error);
@@ -167,12 +175,13 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
 // What escapes while the options are described ends the program with its own text.
 int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   using namespace reckon::app;
+  open_missing_streams();
   restart_with_settings(argv);
   reckon::skip_hdf5_cleanup_at_exit();
-  if (!started_by_launcher()) return run_command_line(argc, argv, {});
+  if (!started_by_launcher()) return end_output(run_command_line(argc, argv, {}));
   try {
     const reckon::ParallelSession session{argc, argv};
-    return run_command_line(argc, argv, session.world());
+    return end_output(run_command_line(argc, argv, session.world()));
   } catch (const reckon::Error& error) {  // a build without MPI
     return complain({}, error.what(), input_at_fault);
   }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "reckon/io/human.hpp"
 #include "reckon/report/paraview_state.hpp"
 
 namespace reckon::app {
@@ -29,7 +30,7 @@ void add_paraview_command(CLI::App& app) {
       fmt::print("Grains will be spheres of equal volume: {}\n", state.missing);
     }
     fmt::print("{}: {} shapes; draw the run with\n  paraview --script={}\n", state.script.string(),
-               state.shapes, state.script.string());
+               state.shapes, shell_word(state.script.string()));
   });
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "reckon/io/human.hpp"
+#include "standard_streams.hpp"
 
 namespace reckon::app {
 namespace {
@@ -27,7 +28,9 @@ std::size_t terminal_width(int descriptor) {
 
 /// Draws a line over the last one.
 void draw(std::FILE* to, int descriptor, double share, std::string_view text) {
-  fmt::print(to, "\r\033[K{}", bar_line(share, text, terminal_width(descriptor)));
+  // fmt::print would throw where the terminal is gone
+  const std::string line = "\r\033[K" + bar_line(share, text, terminal_width(descriptor));
+  std::fputs(line.c_str(), to);
   std::fflush(to);
 }
 
@@ -104,10 +107,9 @@ void ProgressDisplay::draw_bar(const RunProgress& progress, double steps_per_sec
 }
 
 void ProgressDisplay::print_line(const RunProgress& progress, double steps_per_second) const {
-  fmt::print("step {} of {} ({:.1f} %), {:.4g} s simulated, {:.3g} steps/s, {} left\n",
-             progress.step, progress.steps, 100 * share_done(progress), progress.time,
-             steps_per_second, time_left(progress, steps_per_second));
-  std::fflush(stdout);
+  say(fmt::format("step {} of {} ({:.1f} %), {:.4g} s simulated, {:.3g} steps/s, {} left\n",
+                  progress.step, progress.steps, 100 * share_done(progress), progress.time,
+                  steps_per_second, time_left(progress, steps_per_second)));
 }
 
 CountDisplay::CountDisplay(std::string what)

@@ -27,6 +27,7 @@
 #include "reckon/parallel/on_root.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "scene_input.hpp"
+#include "standard_streams.hpp"
 #include "stop_signal.hpp"
 
 namespace reckon::app {
@@ -50,32 +51,35 @@ std::filesystem::path run_folder(const Options& options) {
 }
 
 std::string resume_hint(const Options& options) {
-  return fmt::format("reckon run {}{} --resume", options.scene,
-                     options.folder.empty() ? "" : " --out " + options.folder);
+  return fmt::format("reckon run {}{} --resume", shell_word(options.scene),
+                     options.folder.empty() ? "" : " --out " + shell_word(options.folder));
 }
 
-void print_result(const RunReport& report, const std::filesystem::path& folder) {
+std::string result_text(const RunReport& report, const std::filesystem::path& folder) {
   const RunProgress& progress = report.progress;
   const Measurement& last = report.last;
   const auto made = static_cast<double>(progress.step - progress.first_step);
-  fmt::print("{} at step {} ({:.6g} s simulated) after {}, {:.3g} steps/s\n",
-             report.end == RunEnd::at_rest ? "came to rest" : "complete", progress.step,
-             progress.time, human_duration(progress.wall_seconds),
-             progress.wall_seconds > 0 ? made / progress.wall_seconds : 0);
-  fmt::print("  contacts {} ({} with walls), coordination number {:.3g}, unbalanced ratio {:.3g}\n",
-             last.contacts + last.wall_contacts, last.wall_contacts, last.coordination,
-             last.unbalanced_ratio);
-  fmt::print("  kinetic energy {:.4g} J, fastest grain {:.3g} m/s, deepest overlap {:.3g} m\n",
-             last.energy.translation + last.energy.rotation, last.largest_speed,
-             last.deepest_overlap);
-  fmt::print("  energy balance error {:.2g} J", report.energy_error);
+  std::string text =
+      fmt::format("{} at step {} ({:.6g} s simulated) after {}, {:.3g} steps/s\n",
+                  report.end == RunEnd::at_rest ? "came to rest" : "complete", progress.step,
+                  progress.time, human_duration(progress.wall_seconds),
+                  progress.wall_seconds > 0 ? made / progress.wall_seconds : 0);
+  text += fmt::format(
+      "  contacts {} ({} with walls), coordination number {:.3g}, unbalanced ratio {:.3g}\n",
+      last.contacts + last.wall_contacts, last.wall_contacts, last.coordination,
+      last.unbalanced_ratio);
+  text += fmt::format(
+      "  kinetic energy {:.4g} J, fastest grain {:.3g} m/s, deepest overlap {:.3g} m\n",
+      last.energy.translation + last.energy.rotation, last.largest_speed, last.deepest_overlap);
+  text += fmt::format("  energy balance error {:.2g} J", report.energy_error);
   if (report.energy_turnover > 0) {
-    fmt::print(", {:.2g} of the energy turned over",
-               std::abs(report.energy_error) / report.energy_turnover);
+    text += fmt::format(", {:.2g} of the energy turned over",
+                        std::abs(report.energy_error) / report.energy_turnover);
   }
-  fmt::print("\n{}{}", report.stages, report.performance);
-  fmt::print("  tables    {}\n  ParaView  {}\n", (folder / "history.csv").string(),
-             (folder / "grains.pvd").string());
+  text += fmt::format("\n{}{}", report.stages, report.performance);
+  text += fmt::format("  tables    {}\n  ParaView  {}\n", (folder / "history.csv").string(),
+                      (folder / "grains.pvd").string());
+  return text;
 }
 
 void print_json(const RunReport& report, const SceneConfig& scene,
@@ -150,7 +154,7 @@ SceneInput read_scene_on_root(const Options& options, const Communicator& ranks)
   return input;
 }
 
-void run(const Options& options, const Communicator& ranks) {
+void run(const Options& options, const Communicator& ranks, bool launched) {
   set_threads(options, ranks);
   const SceneInput input = read_scene_on_root(options, ranks);
   const bool quiet = options.quiet || options.json || !ranks.is_root();
@@ -160,20 +164,20 @@ void run(const Options& options, const Communicator& ranks) {
       .overwrite = options.overwrite,
       .steps = options.steps > 0 ? std::optional{options.steps} : std::nullopt,
       .safety_interval = 60 * options.safety_minutes};
-  ProgressDisplay display{quiet, ranks.size() == 1};
+  ProgressDisplay display{quiet, !launched};
   RunHooks hooks;
   hooks.stop_requested = [] { return stop_signal() != 0; };
   hooks.progressed = [&](const RunProgress& progress) { display.show(progress); };
   hooks.note = [&](const std::string& text) {
     if (quiet) return;
     display.clear();
-    fmt::print("{}\n", text);
-    std::fflush(stdout);
+    say(text + '\n');
   };
   watch_stop_signals();
   if (!quiet) {
     const std::string& title = input.scene.config.title;
-    fmt::print("{} -> {}\n", title.empty() ? options.scene : title, run_options.folder.string());
+    say(fmt::format("{} -> {}\n", title.empty() ? options.scene : title,
+                    run_options.folder.string()));
   }
   RunReport report;
   try {
@@ -186,9 +190,11 @@ void run(const Options& options, const Communicator& ranks) {
   if (report.end == RunEnd::interrupted) {
     const int signal = stop_signal() == SIGINT ? SIGINT : SIGTERM;
     if (ranks.is_root()) {
-      fmt::print(stderr, "reckon: stopped by {} at step {} of {}; checkpoint written\n  {}\n",
-                 signal == SIGINT ? "Ctrl-C" : "SIGTERM or SIGUSR1", report.progress.step,
-                 report.progress.steps, resume_hint(options));
+      const std::string text =
+          fmt::format("reckon: stopped by {} at step {} of {}; checkpoint written\n  {}\n",
+                      signal == SIGINT ? "Ctrl-C" : "SIGTERM, SIGUSR1 or SIGHUP",
+                      report.progress.step, report.progress.steps, resume_hint(options));
+      std::fputs(text.c_str(), stderr);  // fmt::print would throw where the terminal is gone
     }
     throw CLI::RuntimeError{signal == SIGINT ? interrupted : terminated};
   }
@@ -197,15 +203,15 @@ void run(const Options& options, const Communicator& ranks) {
   }
   if (quiet) return;
   if (report.end == RunEnd::nothing_to_do) {
-    fmt::print("the run is complete already: nothing to do\n");
+    say("the run is complete already: nothing to do\n");
   } else {
-    print_result(report, run_options.folder);
+    say(result_text(report, run_options.folder));
   }
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& app, const Communicator& ranks) {
+void add_run_command(CLI::App& app, const Communicator& ranks, bool launched) {
   CLI::App* command = app.add_subcommand("run", "Run a scene, or go on with a run");
   auto options = std::make_shared<Options>();
   command->add_option("scene", options->scene, "Scene file (TOML)")->required();
@@ -218,7 +224,7 @@ void add_run_command(CLI::App& app, const Communicator& ranks) {
           "no result")
       ->check(CLI::Range(1, 4096));
   command->add_option("--steps", options->steps, "Run to this step instead of what the scene says")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000'000}));
   CLI::Option* resume = command->add_flag(
       "--resume", options->resume,
       "Go on from the latest good checkpoint, to the same bits as without a break; starts anew "
@@ -233,16 +239,17 @@ void add_run_command(CLI::App& app, const Communicator& ranks) {
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->add_flag("--json", options->json, "At the end, answer in JSON, and print nothing else");
   command->footer(
-      std::string{"Examples:\n"
-                  "  reckon run settle.toml\n"
-                  "  reckon run settle.toml --out /scratch/settle --threads 8\n"
-                  "  reckon run settle.toml --resume               after a break\n"
-                  "  reckon run settle.toml --resume --steps 50000  longer\n"
-                  "  mpirun -np 4 reckon run settle.toml --threads 2   4 processes\n\n"
-                  "Ctrl-C, SIGTERM and SIGUSR1 finish the step, write a checkpoint and end; a "
-                  "second one ends at once.\n\n"} +
+      std::string{
+          "Examples:\n"
+          "  reckon run settle.toml\n"
+          "  reckon run settle.toml --out /scratch/settle --threads 8\n"
+          "  reckon run settle.toml --resume               after a break\n"
+          "  reckon run settle.toml --resume --steps 50000  longer\n"
+          "  mpirun -np 4 reckon run settle.toml --threads 2   4 processes\n\n"
+          "Ctrl-C, SIGTERM, SIGUSR1 and SIGHUP finish the step, write a checkpoint and end; "
+          "a second one ends at once.\n\n"} +
       exit_code_footer);
-  command->callback([options, &ranks] { run(*options, ranks); });
+  command->callback([options, &ranks, launched] { run(*options, ranks, launched); });
 }
 
 }  // namespace reckon::app

@@ -22,6 +22,14 @@ void watch_stop_signals() {
   action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) ::sigaction(signal, &action, nullptr);
+  // SIGHUP comes when the terminal is closed, once from the shell and once from the kernel; nohup
+  // has it ignored.
+  struct sigaction hangup {};
+  ::sigaction(SIGHUP, nullptr, &hangup);
+  action.sa_flags = SA_RESTART;
+  if (hangup.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
+  // A log that is read no more does not end a run.
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 int stop_signal() { return received; }

@@ -21,7 +21,7 @@ class Scene:
     """
 
     def __init__(self, tables: Mapping[str, Any], directory: str | os.PathLike[str] = ".") -> None:
-        self._start(tomli_w.dumps(dict(tables)), directory, "the scene")
+        self._start(tomli_w.dumps(_plain(tables)), directory, "the scene")
 
     @classmethod
     def from_text(cls, text: str, directory: str | os.PathLike[str] = ".") -> Scene:
@@ -84,6 +84,17 @@ class Scene:
 def handle_of(comm: Any) -> int | None:
     """What the compiled half takes for a communicator of mpi4py, or for none."""
     return None if comm is None else comm.py2f()
+
+
+def _plain(value: Any) -> Any:
+    """What TOML has words for: arrays and numbers of NumPy become lists and Python's own numbers, paths text."""
+    if isinstance(value, Mapping):
+        return {key: _plain(inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(inner) for inner in value]
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    return value.tolist() if hasattr(value, "tolist") else value
 
 
 def _index(array: list[Any], word: str, key: str) -> int:

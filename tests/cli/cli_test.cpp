@@ -149,6 +149,22 @@ TEST_F(CliTest, CheckSaysWhatTheRunWillDo) {
   EXPECT_FALSE(std::filesystem::exists(root_ / "scene.run"));
 }
 
+TEST_F(CliTest, CheckWarnsOfWhatWillBlowUp) {
+  const auto said_of = [&](const std::string& scene) {
+    write("odd.toml", scene);
+    return reckon({"check", "odd.toml", "--timing", "0"}).out;
+  };
+  const std::string usual_text = said_of(scene_text(usual));
+  EXPECT_EQ(usual_text.find("DEEP"), std::string::npos) << usual_text;
+  EXPECT_EQ(usual_text.find("TOO LONG"), std::string::npos) << usual_text;
+  const std::string long_step = said_of(scene_text("[time]\nsteps = 600\nstep = '1 ms'\n"));
+  EXPECT_NE(long_step.find("TOO LONG"), std::string::npos) << long_step;
+  std::string outside = scene_text(usual);
+  outside.replace(outside.find("low = [0"), 8, "low = [-0.01");
+  const std::string beyond = said_of(outside);
+  EXPECT_NE(beyond.find("DEEP"), std::string::npos) << beyond;
+}
+
 TEST_F(CliTest, RunsAndRefusesToRunOverARun) {
   const Outcome outcome = reckon({"run", "scene.toml", "--steps", "12", "--threads", "2"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;

@@ -48,6 +48,15 @@ class MpiRun : public testing::ProgramTest {
   }
 };
 
+TEST_F(MpiRun, DrawsNoBarIntoALog) {
+  write("long.toml", scene_text("[time]\nsteps = 6000\n[output]\nhistory_interval = 10\n"));
+  for (const int ranks : {1, 2}) {
+    const Outcome outcome = reckon(ranks, {"run", "long.toml", "--overwrite"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.find('\033'), std::string::npos) << outcome.out;
+  }
+}
+
 TEST_F(MpiRun, LeavesTheFilesOfOneRank) {
   ASSERT_EQ(reckon(1, {"run", "scene.toml", "--out", "one"}).code, 0);
   for (const char* decomposition : {"balanced", "grid", "bins", "replicated"}) {

@@ -111,6 +111,19 @@ class Scenes(Package):
         self.assertEqual(len(fault), 1)
         self.assertIn(fault[0], said)
 
+    def test_values_may_be_those_of_numpy_and_paths(self):
+        scene = self.scene()
+        tables = scene.tables
+        tables["body"] = {"gravity": numpy.array([0.0, 0.0, -9.81])}
+        tables["time"] = {"steps": numpy.int64(5)}
+        for grains in tables["grains"]:
+            grains["library"] = pathlib.Path(grains["library"])
+        changed = reckon.Scene(tables, scene._directory)
+        self.assertEqual(changed.tables["body"]["gravity"], [0.0, 0.0, -9.81])
+        self.assertEqual(changed.tables["time"], {"steps": 5})
+        friction = changed.changed({"material.friction": numpy.float32(0.5)})
+        self.assertEqual(friction.tables["material"]["friction"], 0.5)
+
     def test_changes_by_key_leave_the_rest(self):
         changed = self.scene().changed({"material.friction": 0.1, "wall.0.friction": 0.2})
         self.assertEqual(changed.tables["material"], {"density": 2650, "friction": 0.1})

@@ -110,6 +110,7 @@ test("axes leave room, start at zero where it belongs, and hold whole decades", 
   near(open.low, 9.5);
   near(open.high, 20.5);
   assert.equal(padded({ low: 1, high: 2 }, true).low, 0);
+  assert.deepEqual(padded({ low: 0, high: 0 }, true), { low: 0, high: 1 }); // a run without contacts
   assert.deepEqual(decades({ low: 0.002, high: 0.5 }), { low: 0.001, high: 1 });
   assert.deepEqual(decades({ low: 0.01, high: 0.01 }), { low: 0.01, high: 0.1 });
   const flat = padded({ low: 3, high: 3 }, false);

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
 namespace reckon {
@@ -41,6 +43,24 @@ std::string human_count(std::uint64_t count) {
     out += digits[n];
   }
   return out;
+}
+
+std::string shell_word(std::string_view text) {
+  const auto is_plain = [](char c) {
+    const bool is_ascii = static_cast<unsigned char>(c) < 128;
+    return !is_ascii || std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view{"%+,-./:=@_"}.find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::ranges::all_of(text, is_plain)) return std::string{text};
+  std::string word = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      word += "'\\''";
+    } else {
+      word += c;
+    }
+  }
+  return word + '\'';
 }
 
 }  // namespace reckon

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace reckon {
 
@@ -13,5 +14,7 @@ namespace reckon {
 [[nodiscard]] std::string human_duration(double seconds);
 /// "12,345,678"
 [[nodiscard]] std::string human_count(std::uint64_t count);
+/// A word of a command that can be pasted into a shell, in quotes if it needs them.
+[[nodiscard]] std::string shell_word(std::string_view text);
 
 }  // namespace reckon

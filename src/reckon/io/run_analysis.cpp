@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -91,7 +92,10 @@ StrainSummary summary_of(std::uint64_t step, const std::vector<LocalStrain>& str
     summary.shear += strain.shear;
     summary.volumetric += strain.volumetric;
   }
-  if (shears.empty()) return summary;
+  if (shears.empty()) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {.step = step, .shear = unknown, .largest = unknown, .volumetric = unknown};
+  }
   const auto count = static_cast<double>(shears.size());
   summary.shear /= count;
   summary.volumetric /= count;

@@ -19,6 +19,7 @@ struct AnalysisOptions {
 };
 
 /// What the grains around each grain did since `from`, at one saved step.
+/// Its numbers are NaN where no grain has a strain.
 struct StrainSummary {
   std::uint64_t step{0};
   double shear{0};       ///< mean of all grains with a strain

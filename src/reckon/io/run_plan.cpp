@@ -226,6 +226,10 @@ std::string plan_text(const RunPlan& plan) {
                          "grain)",
                          human_count(plan.contacts), plan.deepest_overlap,
                          plan.deepest_overlap / plan.smallest_diameter));
+  constexpr double deep = 0.2;  // of the smallest grain
+  if (plan.deepest_overlap > deep * plan.smallest_diameter) {
+    line("", "DEEP: grains begin inside each other or beyond a wall, and will be thrown out");
+  }
   const TimeStepChoice& step = plan.time_step;
   line("time step", step.given
                         ? fmt::format("{:.6g} s, as given", step.step)
@@ -235,6 +239,10 @@ std::string plan_text(const RunPlan& plan) {
                step.given ? "the rule would look at" : "set by", step.limiting.get(),
                plan.limiting_shape, step.mass, step.stiffness,
                step.given ? fmt::format(", and take {:.4g} s", step.rule_step) : std::string{}));
+  const double longest = std::sqrt(step.mass / step.stiffness);  // step_fraction = 1
+  if (step.given && step.step > longest) {
+    line("", fmt::format("TOO LONG: above {:.3g} s forces may grow without bound", longest));
+  }
   for (std::size_t n = 0; n < plan.stages.size(); ++n) {
     const auto lines = stage_lines(plan.stages[n], step.step);
     line(fmt::format("stage {}", n + 1), lines.front());

@@ -366,11 +366,13 @@ void Simulation::fail_on_motion() const {
   const std::string who = std::isfinite(first_bad)
                               ? fmt::format("grain {:.0f}", std::abs(first_bad))
                               : std::string{"the membrane"};
-  throw Error{{.place = fmt::format("{}, step {}", who, step_),
-               .problem = "its motion is no longer a number",
-               .reason = "forces grew without bound, most often because the time step is too large "
-                         "for the stiffness or grains overlapped deeply at the start",
-               .fix = "Lower time.step_fraction, or look at the last files for deep overlaps."}};
+  throw Error{
+      {.place = fmt::format("{}, step {}", who, step_),
+       .problem = "its motion is no longer a number",
+       .reason = "forces grew without bound, most often because the time step is too large "
+                 "for the stiffness or grains overlapped deeply at the start",
+       .fix =
+           "Lower time.step_fraction or time.step, or look at the last files for deep overlaps."}};
 }
 
 }  // namespace reckon

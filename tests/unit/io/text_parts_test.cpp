@@ -69,6 +69,15 @@ TEST(JsonWriter, NestsAndEscapes) {
             "}\n");
 }
 
+TEST(Human, WordsForAShell) {
+  EXPECT_EQ(shell_word("runs/settle-2.run"), "runs/settle-2.run");
+  EXPECT_EQ(shell_word("Süß.run"), "Süß.run");
+  EXPECT_EQ(shell_word("my sand.run"), "'my sand.run'");
+  EXPECT_EQ(shell_word("$HOME"), "'$HOME'");
+  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_word(""), "''");
+}
+
 TEST(Human, Sizes) {
   EXPECT_EQ(human_bytes(999), "999 B");
   EXPECT_EQ(human_bytes(12345), "12.3 kB");

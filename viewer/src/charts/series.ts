@@ -88,6 +88,7 @@ export function padded(range: Range | null, fromZero: boolean): Range {
   if (fromZero) {
     low = Math.min(low, 0);
     high = Math.max(high, 0);
+    if (low === high) return { low: 0, high: 1 };
   }
   const room = high > low ? 0.05 * (high - low) : Math.max(Math.abs(high), 1e-12) * 0.1;
   return {

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+
+namespace reckon::app {
+
+/// Opens /dev/null in place of standard streams that the caller has closed. A file that a command
+/// opens would take their place, and get what is meant for the terminal.
+void open_missing_streams();
+
+/// Prints at once on standard output, and goes on where that takes nothing more (its reader is
+/// gone, its disk is full): a run is worth more than its log.
+void say(std::string_view text);
+
+/// Prints what is left for standard output. Returns `code`, or that of a failed run where a command
+/// did well but its answer could not be written. A reader that has seen enough is no failure.
+[[nodiscard]] int end_output(int code);
+
+}  // namespace reckon::app
