@@ -110,7 +110,7 @@ void run(Options options) {
 
 void add_stage_options(CLI::App& command, Options& options) {
   const auto number = [&](const char* name, auto& value, const char* what) {
-    command.add_option(name, value, what)->capture_default_str();
+    return command.add_option(name, value, what)->capture_default_str();
   };
   SegmentSettings& s = options.segment;
   command.add_option("--denoise", s.denoise.method, "How noise is taken out")
@@ -118,7 +118,8 @@ void add_stage_options(CLI::App& command, Options& options) {
       ->default_str("curvature");
   number("--iterations", s.denoise.iterations, "Iterations of curvature diffusion");
   number("--conductance", s.denoise.conductance,
-         "Conductance of curvature diffusion; less keeps more edges");
+         "Conductance of curvature diffusion; less keeps more edges")
+      ->check(CLI::PositiveNumber);
   command.add_option("--threshold", s.mask.threshold,
                      "Gray value between void and solid (default: found by Otsu's method)");
   command.add_flag("--no-fill", options.no_fill, "Leave voids inside grains");

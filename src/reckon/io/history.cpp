@@ -286,6 +286,12 @@ void HistoryFile::append(const HistoryRow& row) {
   }
 }
 
+void HistoryFile::sync() const {
+  if (::fsync(descriptor_) != 0) {
+    fail(path_, "could not be written", std::generic_category().message(errno));
+  }
+}
+
 HistoryTable read_history(const std::filesystem::path& path) {
   const std::vector<std::string> lines = complete_lines(read_file(path));
   if (lines.empty()) fail(path, "is empty", "not even a header is there");

@@ -67,6 +67,8 @@ class HistoryFile {
   HistoryFile& operator=(const HistoryFile&) = delete;
 
   void append(const HistoryRow& row);
+  /// Returns once all rows have reached the disk. Another thread may append meanwhile.
+  void sync() const;
 
  private:
   std::filesystem::path path_;

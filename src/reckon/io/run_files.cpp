@@ -84,6 +84,8 @@ void RunFiles::write_fields(FieldsAtStep fields) {
 void RunFiles::write_checkpoint(SimulationState state) {
   in_background([this, state = std::move(state)]() mutable {
     const std::uint64_t step = state.step;
+    // A run that goes on from here counts on the rows before.
+    outputs_->sync_history();
     checkpoint_.state = std::move(state);
     reckon::write_checkpoint(folder_.checkpoint(step), checkpoint_);
     checkpoint_.state = {};

@@ -26,6 +26,8 @@ class RunOutputs {
              OutputSchedule schedule, std::optional<std::uint64_t> resumed_at);
 
   void append_history(const HistoryRow& row);
+  /// See HistoryFile::sync.
+  void sync_history() const { history_.sync(); }
   void write_fields(const FieldsAtStep& fields);
 
   /// Whether the last row or files written are those of this step.
