@@ -8,6 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "bin_counts.hpp"
 #include "measured.hpp"
@@ -157,9 +159,11 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): ends wi
   measured->add_option("--steps", options.run.steps, "Steps that are timed");
   measured->add_option("--exchange-batches", options.run.exchange_batches,
                        "Batches of ghost updates that are timed alone; the fastest counts");
-  measured->add_option("--decomposition", options.decomposition, "balanced, grid, bins, replicated")
+  std::vector<std::string> decompositions;
+  for (const auto& known : decomposition_names) decompositions.emplace_back(known.first);
+  measured->add_option("--decomposition", options.decomposition, "How grains are shared out")
       ->default_val("balanced")
-      ->check(CLI::IsMember({"balanced", "grid", "bins", "replicated"}));
+      ->check(CLI::IsMember(decompositions));
   measured->add_option("--cache", options.run.request.cache, "Folder that keeps packings");
   CLI11_PARSE(app, argc, argv);
   set_thread_count(options.threads);

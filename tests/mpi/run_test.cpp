@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/program_fixture.hpp"
+#include "reckon/domain/decomposition_names.hpp"
 #include "reckon/io/history.hpp"
 
 namespace reckon {
@@ -59,7 +60,8 @@ TEST_F(MpiRun, DrawsNoBarIntoALog) {
 
 TEST_F(MpiRun, LeavesTheFilesOfOneRank) {
   ASSERT_EQ(reckon(1, {"run", "scene.toml", "--out", "one"}).code, 0);
-  for (const char* decomposition : {"balanced", "grid", "bins", "replicated"}) {
+  for (const auto& known : decomposition_names) {
+    const std::string decomposition{known.first};
     write("several.toml", with_decomposition(decomposition));
     const Outcome outcome =
         reckon(3, {"run", "several.toml", "--out", decomposition, "--threads", "2"});

@@ -189,8 +189,14 @@ test("slow machines draw less and less of each grain while the view moves, until
   assert.equal(pace.moving, Detail.coarse);
   pace.learn(Detail.coarse, 80);
   assert.equal(pace.moving, Detail.balls);
-  pace.learn(Detail.balls, 80); // there is nothing less
+  pace.learn(Detail.balls, 80); // perhaps only the first
+  pace.learn(Detail.balls, 30);
+  pace.learn(Detail.balls, 80);
   assert.equal(pace.moving, Detail.balls);
+  pace.learn(Detail.balls, 80);
+  assert.equal(pace.moving, Detail.blurred);
+  pace.learn(Detail.blurred, 80); // there is nothing less
+  assert.equal(pace.moving, Detail.blurred);
   pace.learn(Detail.fine, 15); // only the first pictures were slow
   assert.equal(pace.moving, Detail.fine);
 });

@@ -54,9 +54,9 @@ decltype(auto) with_itk(const std::string& place, Action&& action) {
     std::string reason = error.GetDescription();
     std::replace(reason.begin(), reason.end(), '\n', ' ');
     throw Error{{.place = place,
-                 .problem = "the volume cannot be read or worked on",
+                 .problem = "ITK could not finish its work",
                  .reason = reason,
-                 .fix = "If it is a file, it may be damaged or cut short: copy it again."}};
+                 .fix = "Where memory or a disk is full, make room."}};
   }
 }
 

@@ -196,7 +196,7 @@ struct StageGoal {
   std::optional<double> stress_above;      ///< on the walls that are driven [Pa]
   std::optional<double> stress_below;      ///< likewise [Pa]
   std::optional<double> void_ratio;        ///< not above
-  std::optional<double> overlap;           ///< of any two grains, below [m]
+  std::optional<double> overlap;           ///< of every node with a grain or wall, below [m]
 };
 
 /// One stage of a test. What is absent is as for the whole scene.

@@ -91,7 +91,7 @@ export class StandIns {
   /** Shows what stands for this detail; `colours` has three numbers per row. */
   show(detail: Detail, frame: Frame | null, surfaceOf: SurfaceOf, colours: Float32Array): void {
     this.coarse.visible = detail === Detail.coarse;
-    this.balls.visible = detail === Detail.balls;
+    this.balls.visible = detail >= Detail.balls;
     if (!frame) return;
     if (this.coarse.visible && this.outdated.coarse) {
       replaceGeometry(this.coarse, merged(frame, surfaceOf, colours));

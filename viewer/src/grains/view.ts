@@ -34,7 +34,7 @@ import { boundsOf, wallLines } from "./outlines.ts";
 import { CellView } from "./cell.ts";
 import { listenToKeys, listenToPointer } from "./input.ts";
 import { MembraneView } from "./membrane.ts";
-import { Detail, Pace } from "./pace.ts";
+import { Detail, Pace, sharpness } from "./pace.ts";
 import { pickGrain } from "./pick.ts";
 import { geometryOf, paintCutsFlat } from "./solids.ts";
 import { StandIns } from "./stand_ins.ts";
@@ -53,6 +53,13 @@ export interface Slice {
 
 const pickedColour = 0xd81b60;
 const settleTime = 250; // [ms] after the last move until the fine ones come back
+
+/** What draws on a canvas that nothing shines through: software would mix every pixel with the page behind. */
+function opaqueContext(canvas: HTMLCanvasElement): WebGL2RenderingContext {
+  const context = canvas.getContext("webgl2", { alpha: false, antialias: true, powerPreference: "high-performance" });
+  if (!context) throw new Error("no WebGL 2");
+  return context;
+}
 
 interface ShapeMesh {
   mesh: InstancedMesh;
@@ -107,8 +114,7 @@ export class GrainView {
 
   constructor(canvas: HTMLCanvasElement) {
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer = new WebGLRenderer({ canvas, context: opaqueContext(canvas) });
     this.renderer.setClearColor(0xf3f2ee);
     this.renderer.localClippingEnabled = true;
     this.renderer.outputColorSpace = SRGBColorSpace;
@@ -298,6 +304,7 @@ export class GrainView {
     this.busy = true;
     const start = performance.now();
     const { detail } = this;
+    this.fit();
     this.renderer.render(this.scene, this.camera);
     const context = this.renderer.getContext() as WebGL2RenderingContext;
     const fence = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -316,7 +323,7 @@ export class GrainView {
       Object.assign(this.canvas.dataset, { detail: Detail[detail], calls, triangles, points });
       this.canvas.dataset.frameTime = this.frameTime.toFixed(1);
       this.canvas.dataset.drawn = String(Number(this.canvas.dataset.drawn ?? 0) + 1);
-      if (this.outdated) this.draw();
+      if (this.outdated) this.drawNow(); // without waiting for the next frame of the screen
       else if (!this.pending) delete this.canvas.dataset.busy;
     };
     look();
@@ -364,11 +371,18 @@ export class GrainView {
   private resize(): void {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth === 0 || clientHeight === 0) return;
-    this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
-    this.standIns.setPixels(this.renderer.domElement.height, this.camera.fov);
     this.draw();
+  }
+  /** Gives the picture the pixels that it is to have. This clears it, so it is drawn right after. */
+  private fit(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    const ratio = Math.min(window.devicePixelRatio, 2) * sharpness(this.detail);
+    const size = this.renderer.getSize(new Vector2());
+    if (size.x === clientWidth && size.y === clientHeight && this.renderer.getPixelRatio() === ratio) return;
+    this.renderer.setDrawingBufferSize(clientWidth, clientHeight, ratio);
+    this.standIns.setPixels(this.canvas.height, this.camera.fov);
   }
 
   private shapeOf(shape: number): ShapeSurfaces {
