@@ -140,6 +140,11 @@ std::string stage_note(const std::string& name, std::uint64_t steps, bool in_tim
   if (sample.enclosed) {
     text += fmt::format(", void ratio {:.3f}, mean stress {:.4g} Pa, coordination {:.2f}",
                         sample.void_ratio, sample.invariants.mean, sample.coordination);
+    if (sample.void_ratio < 0) {
+      text +=
+          "; TOO LITTLE SPACE for the grains: they have gone through walls or the membrane, or "
+          "deep into each other";
+    }
   }
   return text;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reckon/io/history.hpp"
+#include "reckon/io/stage_report.hpp"
 #include "unit/io/run_scene_fixture.hpp"
 
 namespace reckon {
@@ -158,6 +159,16 @@ TEST_F(StagedRunTest, FaultsOfStagesAreFound) {
       faults_of(stage + "until = { strain = 0.1 }\n[[wall]]\nname = 'tube'\ncylinder = { point "
                         "= [0, 0, 0], axis = [1, 1, 0], radius = 1 }\n"),
       (Faults{"stage[0].until: needs walls that close off a space, which these do not"}));
+}
+
+TEST(StageNote, TellsOfTooLittleSpaceForTheGrains) {
+  SampleMeasurement sample;
+  sample.enclosed = true;
+  sample.void_ratio = 0.7;
+  EXPECT_EQ(stage_note("press", 10, true, {}, sample).find("TOO LITTLE SPACE"), std::string::npos);
+  sample.void_ratio = -0.7;
+  EXPECT_NE(stage_note("press", 10, true, {}, sample).find("void ratio -0.700"), std::string::npos);
+  EXPECT_NE(stage_note("press", 10, true, {}, sample).find("TOO LITTLE SPACE"), std::string::npos);
 }
 
 }  // namespace
