@@ -160,6 +160,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): ends wi
   measured->add_option("--exchange-batches", options.run.exchange_batches,
                        "Batches of ghost updates that are timed alone; the fastest counts");
   std::vector<std::string> decompositions;
+  decompositions.reserve(decomposition_names.size());
   for (const auto& known : decomposition_names) decompositions.emplace_back(known.first);
   measured->add_option("--decomposition", options.decomposition, "How grains are shared out")
       ->default_val("balanced")

@@ -42,9 +42,10 @@ void weigh(const float* middle, std::size_t count, std::size_t step,
     std::memcpy(out + i, sum.data(), sizeof sum);
   }
   for (; i < count; ++i) {
-    float sum = weights[0] * middle[i];
+    const float* const here = middle + i;
+    float sum = weights[0] * *here;
     for (std::size_t r = 1; r < weights.size(); ++r) {
-      sum += weights[r] * (middle[i - r * step] + middle[i + r * step]);
+      sum += weights[r] * (*(here - r * step) + *(here + r * step));
     }
     out[i] = sum;
   }
