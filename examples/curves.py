@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the plots of the examples share: reading history.csv and files of fields, and plots below each other."""
 import csv
+import json
 import re
 from pathlib import Path
 
@@ -30,6 +31,22 @@ def last_stage(run: str | Path) -> Columns:
     """The rows of a run's last stage."""
     columns = history(run)
     return stage(columns, columns["stage"][-1])
+
+
+def answer(run: Path) -> dict:
+    """What `reckon run --json` said of a run: RUN.json beside it."""
+    return json.loads(run.with_suffix(".json").read_text(encoding="utf-8"))
+
+
+def energy_error_percent(answered: dict) -> float:
+    """The energy balance error, of the energy turned over."""
+    return 100 * abs(answered["energy_error_J"]) / answered["energy_turnover_J"]
+
+
+def late_friction_angle(rows: Columns) -> float:
+    """The mean over the last fifth of the axial strain [degrees]."""
+    strain = 1 - np.exp(-rows["strain_z"])
+    return rows["friction_angle_deg"][strain > 0.8 * strain[-1]].mean()
 
 
 def arrays(path: Path) -> dict[str, np.ndarray]:

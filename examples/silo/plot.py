@@ -7,7 +7,6 @@ WIDTH of the square silo [m]. Means over the files of fields/ from the last quar
 height is the weight above it less what the walls carry of that. K, the stress on the walls over the vertical one, is
 taken from the same run, so that Janssen's law has nothing left to fit.
 """
-import csv
 import sys
 from pathlib import Path
 from typing import NamedTuple
@@ -32,13 +31,11 @@ class Silo(NamedTuple):
 
 def wall_names(run: Path) -> list[str]:
     """In the order in which contacts count them."""
-    with open(run / "history.csv", newline="", encoding="utf-8") as file:
-        header = next(csv.reader(file))
-    return [name.removesuffix(":fx_N") for name in header if name.endswith(":fx_N")]
+    return [name.removesuffix(":fx_N") for name in curves.history(run) if name.endswith(":fx_N")]
 
 
 def measure(run: Path, width: float, friction: float) -> Silo:
-    sides = {name: axis for axis in (0, 1) for name in (f"silo.{'xy'[axis]}-", f"silo.{'xy'[axis]}+")}
+    sides = {"silo.x-": 0, "silo.x+": 0, "silo.y-": 1, "silo.y+": 1}
     axis_of = np.array([sides.get(name, -1) for name in wall_names(run)])
     contact_files = sorted(run.glob("fields/contacts_*.vtp"))
     stresses, pushes, mobilised, on_floor = [], [], [], []

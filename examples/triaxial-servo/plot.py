@@ -12,14 +12,17 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 import curves
 
 
+def shear_curves(run: str | Path) -> tuple:
+    """Axial strain [%], stress ratio and dilation [%] of a run's last stage."""
+    shear = curves.last_stage(run)
+    ratio = shear["deviator_Pa"] / shear["mean_stress_Pa"]
+    return 100 * shear["strain_z"], ratio, -100 * shear["volumetric_strain"]
+
+
 def main() -> None:
     if len(sys.argv) < 3:
         sys.exit(__doc__)
-    lines = []
-    for run, label in curves.runs_and_labels(sys.argv[2:]):
-        shear = curves.last_stage(run)
-        ratio = shear["deviator_Pa"] / shear["mean_stress_Pa"]
-        lines.append((label, 100 * shear["strain_z"], ratio, -100 * shear["volumetric_strain"]))
+    lines = [(label, *shear_curves(run)) for run, label in curves.runs_and_labels(sys.argv[2:])]
     curves.plot_over_one_axis(sys.argv[1], "axial strain [%]", ["stress ratio q/p", "dilation [%]"], lines)
 
 

@@ -5,7 +5,6 @@
 usage: seeds.py WORK PICTURE
 WORK holds runs sand-SEED and spheres-SEED, and beside each what `reckon run --json` said of it, as RUN.json.
 """
-import json
 import sys
 from pathlib import Path
 
@@ -13,26 +12,24 @@ import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 import curves
+from plot import shear_curves
 
 KINDS = {"sand": ("grains", "tab:blue"), "spheres": ("spheres of the same volumes", "tab:orange")}
 
 
 def figures(run: Path) -> dict[str, float]:
-    answer = json.loads(run.with_suffix(".json").read_text(encoding="utf-8"))
+    answer = curves.answer(run)
     shear = answer["driven_stages"][-1]
     rows = curves.last_stage(run)
-    strain = 1 - np.exp(-rows["strain_z"])
     return {
         "void ratio before shearing": rows["void_ratio"][0],
         "peak friction angle [°]": shear["peak_friction_angle_deg"],
         "axial strain there [%]": 100 * shear["strain_at_peak"],
         "dilatancy angle there [°]": shear["dilatancy_angle_deg"],
-        "friction angle over the last fifth [°]": rows["friction_angle_deg"][strain > 0.8 * strain[-1]].mean(),
+        "friction angle over the last fifth [°]": curves.late_friction_angle(rows),
         "void ratio at 15 % strain": rows["void_ratio"][-1],
         "stress by contacts and by walls apart, median row [%]": 100 * shear["stress_disagreement"],
-        "energy balance error, of the energy turned over [%]": 100
-        * abs(answer["energy_error_J"])
-        / answer["energy_turnover_J"],
+        "energy balance error, of the energy turned over [%]": curves.energy_error_percent(answer),
     }
 
 
@@ -46,10 +43,8 @@ def main() -> None:
         found = [figures(run) for run in runs]
         columns.append({name: np.array([figure[name] for figure in found]) for name in found[0]})
         for number, run in enumerate(runs):
-            shear = curves.last_stage(run)
-            strain = 100 * shear["strain_z"]
-            ratio = shear["deviator_Pa"] / shear["mean_stress_Pa"]
-            for axes, y in zip(plots, (ratio, -100 * shear["volumetric_strain"])):
+            strain, *shown = shear_curves(run)
+            for axes, y in zip(plots, shown):
                 axes.plot(strain, y, color=colour, linewidth=0.7, label=None if number else f"{label}, {len(runs)} seeds")
     print("| | " + " | ".join(label for label, _ in KINDS.values()) + " |")
     print("|---" * (len(KINDS) + 1) + "|")

@@ -5,7 +5,6 @@
 usage: table.py WORK
 WORK holds runs sand-KPA and spheres-KPA, and beside each what `reckon run RUN.toml --resume --json` says of it, RUN.json.
 """
-import json
 import sys
 from pathlib import Path
 
@@ -24,10 +23,9 @@ def smoothed(values: np.ndarray) -> np.ndarray:
 
 def figures(run: Path, kpa: int) -> list[str]:
     """A column of the table."""
-    answer = json.loads(run.with_suffix(".json").read_text(encoding="utf-8"))
+    answer = curves.answer(run)
     shear = answer["driven_stages"][-1]
     rows = curves.last_stage(run)
-    strain = 1 - np.exp(-rows["strain_z"])
     cell = 1000.0 * kpa
     stress = rows["wall_stress_zz_Pa"]
     by_cell = np.degrees(np.arcsin((stress - cell) / (stress + cell)))
@@ -35,11 +33,11 @@ def figures(run: Path, kpa: int) -> list[str]:
         f"{rows['void_ratio'][0]:.3f}",
         f"{shear['peak_friction_angle_deg']:.1f}° at {100 * shear['strain_at_peak']:.1f} %",
         f"{shear['dilatancy_angle_deg']:.1f}°",
-        f"{rows['friction_angle_deg'][strain > 0.8 * strain[-1]].mean():.1f}°",
+        f"{curves.late_friction_angle(rows):.1f}°",
         f"{rows['void_ratio'][-1]:.3f}",
         f"{smoothed(by_cell).max():.1f}°",
         f"{100 * shear['stress_disagreement']:.2f} % ({100 * shear['largest_stress_disagreement']:.1f} %)",
-        f"{100 * abs(answer['energy_error_J']) / answer['energy_turnover_J']:.2f} %",
+        f"{curves.energy_error_percent(answer):.2f} %",
     ]
 
 

@@ -17,13 +17,6 @@ using testing::Outcome;
 
 class CliTest : public testing::ProgramTest {
  protected:
-  [[nodiscard]] testing::Process start(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), RECKON_PROGRAM);
-    return start_line(std::move(arguments));
-  }
-  [[nodiscard]] Outcome reckon(std::vector<std::string> arguments) const {
-    return outcome_of(start(std::move(arguments)));
-  }
   void expect_identical(const std::string& a, const std::string& b) const {
     const Outcome outcome = reckon({"diff", a, b});
     EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;

@@ -19,8 +19,7 @@ class OptionsTest : public testing::ProgramTest {
  protected:
   /// What is said of wrong options; nothing where they were taken.
   [[nodiscard]] std::string refusal(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), RECKON_PROGRAM);
-    const Outcome outcome = outcome_of(start_line(std::move(arguments)));
+    const Outcome outcome = reckon(std::move(arguments));
     if (outcome.code != 1 || !outcome.out.empty()) return {};
     return outcome.err;
   }
@@ -58,8 +57,7 @@ TEST_F(OptionsTest, AScanHasGraysThatItsTypeHolds) {
 
 TEST_F(OptionsTest, StrainsThatNobodyHasAreNotZero) {
   ASSERT_EQ(refusal({"run", "scene.toml", "--steps", "100", "--quiet"}), "");
-  const Outcome none = outcome_of(
-      start_line({RECKON_PROGRAM, "analyse", "scene.run", "--longest-edge", "1nm", "--json"}));
+  const Outcome none = reckon({"analyse", "scene.run", "--longest-edge", "1nm", "--json"});
   EXPECT_EQ(none.code, 0) << none.err;
   EXPECT_NE(none.out.find("\"shear_mean\": null"), std::string::npos) << none.out;
 }

@@ -31,6 +31,14 @@ class ProgramTest : public RunSceneTest {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream{root_ / name} << text;
   }
+  /// The program itself, with these arguments.
+  [[nodiscard]] Process start(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), RECKON_PROGRAM);
+    return start_line(std::move(arguments));
+  }
+  [[nodiscard]] Outcome reckon(std::vector<std::string> arguments) const {
+    return outcome_of(start(std::move(arguments)));
+  }
   /// `line` begins with the program.
   [[nodiscard]] Process start_line(std::vector<std::string> line) const {
     return Process{std::move(line), root_};

@@ -3,10 +3,8 @@
 #include "reckon/scan/blur.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <vector>
 
 #include "reckon/math/portable.hpp"
@@ -15,39 +13,15 @@
 namespace reckon {
 namespace {
 
-using Lanes [[gnu::vector_size(4 * sizeof(float))]] = float;
-constexpr std::size_t vectors = 4;  // at once
-constexpr std::size_t lanes = vectors * sizeof(Lanes) / sizeof(float);
-
-Lanes load(const float* from) {
-  Lanes numbers;
-  std::memcpy(&numbers, from, sizeof numbers);
-  return numbers;
-}
-
 /// Weighs numbers: each with those that stand at multiples of `step` before and after it.
 void weigh(const float* middle, std::size_t count, std::size_t step,
            const std::vector<float>& weights, float* out) {
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    std::array<Lanes, vectors> sum;
-    for (std::size_t n = 0; n < vectors; ++n) sum[n] = weights[0] * load(middle + i + 4 * n);
-    for (std::size_t r = 1; r < weights.size(); ++r) {
-      const float* const before = middle + i - r * step;
-      const float* const after = middle + i + r * step;
-      for (std::size_t n = 0; n < vectors; ++n) {
-        sum[n] += weights[r] * (load(before + 4 * n) + load(after + 4 * n));
-      }
-    }
-    std::memcpy(out + i, sum.data(), sizeof sum);
-  }
-  for (; i < count; ++i) {
-    const float* const here = middle + i;
-    float sum = weights[0] * *here;
-    for (std::size_t r = 1; r < weights.size(); ++r) {
-      sum += weights[r] * (*(here - r * step) + *(here + r * step));
-    }
-    out[i] = sum;
+  for (std::size_t i = 0; i < count; ++i) out[i] = weights[0] * middle[i];
+  for (std::size_t r = 1; r < weights.size(); ++r) {
+    const float weight = weights[r];
+    const float* const before = middle - r * step;
+    const float* const after = middle + r * step;
+    for (std::size_t i = 0; i < count; ++i) out[i] += weight * (before[i] + after[i]);
   }
 }
 
