@@ -46,7 +46,7 @@ py::dict report_of(const RunReport& report) {
   told["wall_seconds"] = report.progress.wall_seconds;
   told["energy_error"] = report.energy_error;
   told["energy_turnover"] = report.energy_turnover;
-  told["last"] = table_of(report.last);
+  told["last"] = table_of(report.measured, report.last.energy);
   told["stages"] = report.stages;
   return told;
 }

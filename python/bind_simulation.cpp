@@ -14,6 +14,7 @@
 #include "bindings.hpp"
 #include "reckon/analysis/sample.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/io/quantities.hpp"
 #include "reckon/io/run_start.hpp"
 #include "reckon/io/scene_loader.hpp"
 #include "reckon/simulation/simulation.hpp"
@@ -47,6 +48,7 @@ class Stepper {
       : scene_{std::move(scene)}, prepared_{prepare(scene_->loaded, ranks)} {
     simulation_ = std::make_unique<Simulation>(
         prepared_.setup, ranks.is_root() ? prepared_.initial : SimulationState{}, ranks);
+    energy_at_start_ = simulation_->measure().energy.total();
   }
 
   /// Ctrl-C is heard between steps.
@@ -63,6 +65,18 @@ class Stepper {
     }
   }
 
+  /// What history.csv has at a step, the sample included.
+  [[nodiscard]] py::dict measure() {
+    const Measurement measurement = simulation_->measure();
+    const SampleMeasurement sample = measure_sample(*simulation_);
+    HistoryRow row{.measurement = measurement, .energy_at_start = energy_at_start_};
+    row.sample = &sample;
+    if (simulation_->cell() != nullptr) row.cell = &simulation_->cell_state();
+    if (simulation_->stage() != nullptr) row.stage = simulation_->stage_starts().size();
+    const auto quantities = quantities_of(layout_of(simulation_->setup(), true));
+    return table_of(measured(quantities, row), measurement.energy);
+  }
+
   [[nodiscard]] Simulation& simulation() { return *simulation_; }
   [[nodiscard]] const PreparedScene& prepared() const { return prepared_; }
 
@@ -70,6 +84,7 @@ class Stepper {
   std::shared_ptr<Scene> scene_;
   PreparedScene prepared_;
   std::unique_ptr<Simulation> simulation_;
+  double energy_at_start_{0};  // [J]
 };
 
 void begin_next_stage(Stepper& stepper) {
@@ -121,7 +136,7 @@ void bind_simulation(py::module_& module) {
                                if (stage == nullptr) return py::none();
                                return py::str(stage->name);
                              })
-      .def("measure", [](Stepper& s) { return table_of(s.simulation().measure()); })
+      .def("measure", &Stepper::measure)
       .def("grains", [](Stepper& s) { return table_of(s.simulation().grain_states()); })
       .def("contacts", [](Stepper& s) { return table_of(s.simulation().contacts()); });
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tables.hpp"
 
+#include <variant>
+
 #include "arrays.hpp"
 #include "reckon/math/rotation.hpp"
 
@@ -21,40 +23,50 @@ py::dict poses_of(const Grains& grains) {
   return table;
 }
 
+py::object value_of(const Number& number) {
+  return std::visit([](auto value) { return py::object{py::cast(value)}; }, number);
+}
+
+std::vector<double> doubles(const std::vector<Number>& numbers) {
+  std::vector<double> values;
+  values.reserve(numbers.size());
+  for (const Number& number : numbers) {
+    values.push_back(std::visit([](auto value) { return static_cast<double>(value); }, number));
+  }
+  return values;
+}
+
+/// A number, a vector as a tuple, or a symmetric tensor as its rows.
+py::object value_of(const MeasuredQuantity& quantity) {
+  if (quantity.components.empty()) return value_of(quantity.numbers.front());
+  const std::vector<double> v = doubles(quantity.numbers);
+  if (v.size() == 3) return tuple_of({v[0], v[1], v[2]});
+  // xx, yy, zz, xy, yz, zx
+  return rows_of(std::vector<Vec3>{{v[0], v[3], v[5]}, {v[3], v[1], v[4]}, {v[5], v[4], v[2]}});
+}
+
 }  // namespace
 
-py::dict table_of(const Measurement& m) {
+py::dict table_of(const std::vector<MeasuredQuantity>& quantities, const EnergyBudget& budget) {
   py::dict table;
-  table["step"] = m.step;
-  table["time"] = m.time;
-  table["grains"] = m.grains;
-  table["departed"] = m.departed;
-  table["contacts"] = m.contacts;
-  table["wall_contacts"] = m.wall_contacts;
-  table["touching_nodes"] = m.touching_nodes;
-  table["bonds"] = m.bonds;
-  table["broken_in_tension"] = m.broken_bonds.in_tension;
-  table["broken_in_shear"] = m.broken_bonds.in_shear;
-  table["coordination"] = m.coordination;
-  table["unbalanced_ratio"] = m.unbalanced_ratio;
-  table["deepest_overlap"] = m.deepest_overlap;
-  table["largest_speed"] = m.largest_speed;
-  table["momentum"] = tuple_of(m.momentum);
-  table["wall_force"] = rows_of(m.wall_force);
   py::dict energy;
-  energy["translation"] = m.energy.translation;
-  energy["rotation"] = m.energy.rotation;
-  energy["gravity"] = m.energy.gravity;
-  energy["elastic"] = m.energy.elastic;
-  energy["friction"] = m.energy.friction;
-  energy["dashpot"] = m.energy.dashpot;
-  energy["fracture"] = m.energy.fracture;
-  energy["damping"] = m.energy.damping;
-  energy["body_work"] = m.energy.body_work;
-  energy["wall_work"] = m.energy.wall_work;
-  energy["departed"] = m.energy.departed;
-  energy["total"] = m.energy.total();
+  std::vector<Vec3> wall_force;
+  for (const MeasuredQuantity& quantity : quantities) {
+    if (quantity.of_wall) {
+      const std::vector<double> force = doubles(quantity.numbers);
+      wall_force.push_back({force[0], force[1], force[2]});
+      continue;
+    }
+    const py::object value = value_of(quantity);
+    if (quantity.unit == "J") {
+      energy[py::str(quantity.name)] = value;
+    } else {
+      table[py::str(quantity.name)] = value;
+    }
+  }
+  energy["total"] = budget.total();
   table["energy"] = energy;
+  table["wall_force"] = rows_of(wall_force);
   return table;
 }
 

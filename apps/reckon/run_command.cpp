@@ -90,14 +90,8 @@ void print_json(const RunReport& report, const SceneConfig& scene,
   json.value("folder", folder.string());
   json.value("status", report.end == RunEnd::at_rest ? "at rest" : "complete");
   json.value("nothing_to_do", report.end == RunEnd::nothing_to_do);
-  json.value("step", progress.step);
-  json.value("time_s", progress.time);
   json.value("wall_s", progress.wall_seconds);
-  json.value("contacts", report.last.contacts);
-  json.value("wall_contacts", report.last.wall_contacts);
-  json.value("coordination", report.last.coordination);
-  json.value("unbalanced_ratio", report.last.unbalanced_ratio);
-  json.value("deepest_overlap_m", report.last.deepest_overlap);
+  write_measured(json, report.measured);
   json.value("energy_error_J", report.energy_error);
   json.value("energy_turnover_J", report.energy_turnover);
   json.begin_array("driven_stages");

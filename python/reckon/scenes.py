@@ -156,7 +156,10 @@ class Simulation:
         return self._compiled.stage
 
     def measure(self) -> dict[str, Any]:
-        """Energies, contacts and more at the current step."""
+        """What history.csv has, by name without the unit, the sample included, at the current step.
+
+        Energies are in the dictionary `energy`, the forces on walls in the rows of `wall_force`, in scene order.
+        """
         return self._compiled.measure()
 
     def grains(self) -> dict[str, Any]:

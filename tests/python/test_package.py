@@ -5,6 +5,7 @@
     test_package.py RECKON      RECKON: the program; the package is on PYTHONPATH
 """
 import ast
+import csv
 import math
 import os
 import pathlib
@@ -35,6 +36,20 @@ def scene(**changes):
     }
     tables.update(changes)
     return tables
+
+
+def _numbers(table, skip=""):
+    """All numbers of a dictionary, those of arrays and dictionaries in it included."""
+    for name, value in table.items():
+        if isinstance(value, dict):
+            yield from _numbers(value, skip)
+        elif name != skip:
+            yield from numpy.ravel(value)
+
+
+def _numbers_in(header):
+    """How many numbers the columns of history.csv are as tables of Python, where a tensor of six is nine."""
+    return len(header) + 3 * sum(name.replace("_Pa", "").endswith("_xx") for name in header)
 
 
 class Package(unittest.TestCase):
@@ -157,6 +172,22 @@ class Simulations(Package):
         numpy.testing.assert_array_equal(touching["force"], saved["contacts"]["force"])
         self.assertEqual(saved["cell_corners"].shape, (0, 3))  # no periodic cell, no shift into it
         self.assertFalse(saved["grains"]["cell_shift"].any())
+
+    def test_a_measurement_has_every_column_of_the_history(self):
+        box = {"low": [0, 0, 0], "high": ["4 mm", "4 mm", "8 mm"]}
+        closed = self.scene(wall=[{"name": "box", "box": box}], output={"history_interval": 50, "sample": True},
+                            time={}, stage=[{"name": "fall", "steps": 200}])
+        run = reckon.run(closed, self.folder / "columns")
+        simulation = reckon.Simulation(closed)
+        simulation.step(200)
+        with open(run.folder / "history.csv") as file:
+            header, *_, last = csv.reader(file)
+        for name, measured in (("Simulation.measure", simulation.measure()), ("report", run.report["last"])):
+            self.assertEqual(len(list(_numbers(measured, skip="total"))), _numbers_in(header), name)
+            self.assertEqual(measured["void_ratio"], float(last[header.index("void_ratio")]))
+            self.assertEqual(measured["energy"]["balance_error"], float(last[header.index("balance_error_J")]))
+            self.assertEqual(measured["stress"][2, 0], float(last[header.index("stress_zx_Pa")]))
+            self.assertEqual(measured["wall_force"][4, 2], float(last[header.index("box.z-:fz_N")]))
 
     def test_the_program_reads_and_writes_the_same_runs(self):
         file = self.folder / "scene.toml"

@@ -246,15 +246,20 @@ class Session {
 
   [[nodiscard]] HistoryRow row() {
     HistoryRow row{.measurement = last_};
-    row.membrane = config_.membrane.has_value();
     if (simulation_.cell() != nullptr) {
       cell_ = simulation_.cell_state();
       row.cell = &cell_;
     }
-    row.bonds = config_.bond.has_value();
     if (has_stages()) row.stage = stage_index() + 1;
     if (config_.output.sample) row.sample = &sample_;
     return row;
+  }
+  /// The root's, on all ranks. Collective.
+  [[nodiscard]] double energy_at_start() const {
+    Bytes bytes;
+    if (files_ != nullptr) pack<double>(bytes, std::array{files_->energy_at_start()});
+    bytes = ranks_.broadcast(std::move(bytes));
+    return Unpacker{bytes}.take_all<double>().front();
   }
   void append_history() {
     measure();
@@ -304,6 +309,10 @@ class Session {
       save_record(status);
     }
     RunReport report{.end = end, .progress = progress_, .last = last_};
+    HistoryRow at_end = row();
+    at_end.energy_at_start = energy_at_start();
+    report.measured =
+        measured(quantities_of(layout_of(simulation_.setup(), config_.output.sample)), at_end);
     if (files_ == nullptr) return report;
     files_->log(fmt::format("{} at step {} of {}", status, progress_.step, progress_.steps));
     const EnergyBudget& energy = last_.energy;

@@ -7,8 +7,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reckon/core/error.hpp"
+#include "reckon/io/quantities.hpp"
 #include "reckon/io/scene_reader.hpp"
 #include "reckon/simulation/measurement.hpp"
 #include "reckon/simulation/setup.hpp"
@@ -53,7 +55,9 @@ enum class RunEnd {
 struct RunReport {
   RunEnd end{RunEnd::complete};
   RunProgress progress;
-  Measurement last;                  ///< at the last step
+  Measurement last;  ///< at the last step
+  /// All quantities of the run at the last step, as the last row of history.csv has them.
+  std::vector<MeasuredQuantity> measured;
   double energy_error{0};            ///< balance error [J]
   double energy_turnover{0};         ///< stored, lost and come in, as a measure for it [J]
   std::filesystem::path checkpoint;  ///< the latest; on the root

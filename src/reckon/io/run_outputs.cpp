@@ -30,10 +30,7 @@ RunOutputs::RunOutputs(RunFolder folder, const LoadedScene& scene, const Prepare
       walls_{prepared.setup.walls},
       density_{scene.config.material.density},
       time_step_{prepared.time_step.step},
-      history_{folder_.history(),
-               {prepared.setup.walls, prepared.setup.membrane.has_value(),
-                prepared.setup.cell.has_value(), prepared.setup.contact.bond.has_value(),
-                !prepared.setup.stages.empty(), config_.sample},
+      history_{folder_.history(), quantities_of(layout_of(prepared.setup, config_.sample)),
                rows_to_keep(schedule_, resumed_at)} {
   if (prepared.setup.membrane) mould_ = prepared.setup.membrane->mould;
   if (!resumed_at) return;

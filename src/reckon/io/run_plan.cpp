@@ -140,9 +140,10 @@ void time_steps(PreparedScene& prepared, double timing_seconds, bool with_sample
     measurement = simulation.measure();
     seconds_per_row = seconds_since(measuring);
     const SampleMeasurement sample = measure_sample(simulation);
-    row_bytes = history_row({.measurement = measurement, .sample = with_sample ? &sample : nullptr})
-                    .size() +
-                1;
+    const CellState cell = simulation.cell() != nullptr ? simulation.cell_state() : CellState{};
+    const HistoryRow row{.measurement = measurement, .cell = &cell, .stage = 1, .sample = &sample};
+    const auto quantities = quantities_of(layout_of(simulation.setup(), with_sample));
+    row_bytes = history_row(quantities, row).size() + 1;
   } catch (const Error& error) {
     plan.trial_failure = error.what();
   }

@@ -42,9 +42,10 @@ void add_history(const RunFolder& folder, const SceneConfig& scene, std::size_t 
   if (std::filesystem::exists(folder.history())) table = read_history(folder.history());
   const std::vector<Wall> walls = make_walls(scene);
   std::map<std::string, std::string> meanings;
-  for (const HistoryColumn& column :
-       history_columns({.walls = walls, .membrane = true, .stages = true, .sample = true})) {
-    meanings[column.name] = column.meaning;
+  for (const QuantityGroup& group : quantity_groups(walls)) {
+    for (const Quantity& quantity : group.quantities) {
+      for (const std::string& column : quantity.columns()) meanings[column] = quantity.meaning;
+    }
   }
   std::vector<std::uint64_t> rows(table.rows.size());
   for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = row;

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 
 #include "reckon/core/error.hpp"
@@ -39,13 +40,12 @@ class HistoryTest : public ::testing::Test {
 
 TEST_F(HistoryTest, NumbersReadBackAsTheSameBits) {
   {
-    HistoryFile file{path_, {walls}};
+    HistoryFile file{path_, quantities_of({walls})};
     const Measurement measured = measurement_at(3);
     file.append({.measurement = measured, .energy_at_start = 0.25});
   }
   const HistoryTable table = read_history(path_);
   ASSERT_EQ(table.rows.size(), 1U);
-  ASSERT_EQ(table.header.size(), history_columns({walls}).size());
   const auto cell = [&](const std::string& name) {
     for (std::size_t c = 0; c < table.header.size(); ++c) {
       if (table.header[c] != name) continue;
@@ -69,7 +69,7 @@ TEST_F(HistoryTest, NumbersReadBackAsTheSameBits) {
 
 TEST_F(HistoryTest, GoesOnFromTheRowsThatAreKept) {
   {
-    HistoryFile file{path_, {walls}};
+    HistoryFile file{path_, quantities_of({walls})};
     for (const std::uint64_t step : {0U, 10U, 20U, 30U}) {
       const Measurement measured = measurement_at(step);
       file.append({.measurement = measured});
@@ -78,7 +78,7 @@ TEST_F(HistoryTest, GoesOnFromTheRowsThatAreKept) {
   const std::string whole = read_file(path_);
   std::ofstream{path_, std::ios::app} << "40,4.0,0.33";  // a row cut short by a power failure
   {
-    HistoryFile file{path_, {walls}, [](std::uint64_t step) { return step <= 20; }};
+    HistoryFile file{path_, quantities_of({walls}), [](std::uint64_t step) { return step <= 20; }};
     const Measurement measured = measurement_at(30);
     file.append({.measurement = measured});
   }
@@ -86,11 +86,67 @@ TEST_F(HistoryTest, GoesOnFromTheRowsThatAreKept) {
 }
 
 TEST_F(HistoryTest, RefusesAnotherHeaderAndRaggedRows) {
-  { HistoryFile file{path_, {walls}}; }
+  { HistoryFile file{path_, quantities_of({walls})}; }
   const auto all = [](std::uint64_t) { return true; };
-  EXPECT_THROW((HistoryFile{path_, {std::span{walls}.first(1)}, all}), Error);
+  EXPECT_THROW((HistoryFile{path_, quantities_of({std::span{walls}.first(1)}), all}), Error);
   std::ofstream{path_, std::ios::app} << "1,2\n";
   EXPECT_THROW((void)read_history(path_), Error);
+}
+
+/// Everything that a run may measure.
+const HistoryLayout everything{walls, true, true, true, true, true};
+
+TEST(Quantities, EachHasAsManyNumbersAsColumns) {
+  Measurement measurement = measurement_at(3);
+  const SampleMeasurement sample;
+  const CellState cell;
+  const HistoryRow row{.measurement = measurement, .cell = &cell, .stage = 1, .sample = &sample};
+  std::set<std::string> names;
+  std::size_t columns = 0;
+  for (const Quantity& quantity : quantities_of(everything)) {
+    EXPECT_EQ(quantity.numbers(row).size(), quantity.columns().size()) << quantity.name;
+    EXPECT_FALSE(quantity.meaning.empty()) << quantity.name;
+    for (const std::string& column : quantity.columns()) names.insert(column);
+    columns += quantity.columns().size();
+  }
+  EXPECT_EQ(names.size(), columns) << "two quantities have one name";
+}
+
+/// Header, rows, reference page and JSON all have a quantity that is added to the table, and
+/// nothing else needs a change for it.
+TEST(Quantities, OneEntryIsAllThatAQuantityNeeds) {
+  std::vector<QuantityGroup> groups = quantity_groups(walls);
+  groups[0].quantities.push_back(
+      {{"porosity", "mm^2", "a new quantity", {"_x", "_y"}}, [](const HistoryRow& row) {
+         return std::vector<Number>{row.measurement.contacts, 0.5};
+       }});
+  const std::vector<Quantity>& quantities = groups[0].quantities;
+  EXPECT_TRUE(history_header(quantities).ends_with(",porosity_x_mm2,porosity_y_mm2"));
+  const Measurement measurement = measurement_at(3);
+  EXPECT_TRUE(history_row(quantities, {.measurement = measurement}).ends_with(",12,0.5"));
+  const std::string page = history_reference_markdown(groups);
+  EXPECT_NE(page.find("| `porosity_x_mm2` | mm^2 | a new quantity |\n"), std::string::npos);
+  EXPECT_NE(page.find("| `porosity_y_mm2` | mm^2 | a new quantity |\n"), std::string::npos);
+  JsonWriter json;
+  json.begin_object();
+  write_measured(json, measured(quantities, {.measurement = measurement}));
+  json.end();
+  EXPECT_NE(json.text().find("\"porosity_x_mm2\": 12,\n"), std::string::npos) << json.text();
+  EXPECT_NE(json.text().find("\"porosity_y_mm2\": 0.5"), std::string::npos) << json.text();
+}
+
+/// Whatever a run writes can be looked up.
+TEST(HistoryReference, HasEveryColumnThatARunMayHave) {
+  const std::string page = read_file(RECKON_SOURCE_DIR "/docs/reference/history.md");
+  std::string header = history_header(quantities_of(everything)) + ',';
+  for (std::size_t end = header.find(','); end != std::string::npos; end = header.find(',')) {
+    std::string column = header.substr(0, end);
+    header.erase(0, end + 1);
+    for (const Wall& wall : walls) {
+      if (column.starts_with(wall.name + ':')) column.replace(0, wall.name.size(), "WALL");
+    }
+    EXPECT_NE(page.find("| `" + column + "` |"), std::string::npos) << column;
+  }
 }
 
 TEST(HistoryReference, ThePrintedReferenceIsTheCommittedPage) {
