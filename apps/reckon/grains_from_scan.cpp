@@ -81,8 +81,9 @@ void run(Options options) {
   std::filesystem::create_directories(folder);
   ScanReport report{folder};
   const ScanStage last = stages.at(options.until);
-  const Segmentation scan =
-      segment_scan(segment, folder, last, [&](ScanStage stage) { report.begin(name_of(stage)); });
+  const Segmentation scan = segment_scan(
+      segment, folder, last, [&](ScanStage stage) { report.begin(name_of(stage)); },
+      [&](const std::string& text) { report.remark(text); });
   const std::int32_t layers = scan.raw.dims()[2];
   const std::int32_t slice =
       options.slice >= 0 && options.slice < layers ? options.slice : layers / 2;
@@ -199,8 +200,9 @@ void add_grains_from_scan(CLI::App& grains) {
                    "TIFF stack or folder, .nrrd, .mha, .raw with .raw.txt, .h5 or .npy")
       ->required();
   command->add_option("--voxel", options->voxel, "Edge of a voxel, e.g. 3um")->required();
-  command->add_option("--out", options->folder, "Folder to write to; made when missing")
+  command->add_option("-o,--out", options->folder, "Folder to write to; made when missing")
       ->required();
+  command->add_flag("--invert", s.volume.invert, "Void is brighter than the grains in this volume");
   command->add_option("--dataset", s.volume.dataset, "Which dataset of an HDF5 file");
   auto* labelled = command->add_flag("--labelled", s.labelled, "The volume holds labels already");
   command->add_option("--gray", s.gray, "With --labelled: the gray volume of the same scan")

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <utility>
 
@@ -23,15 +24,15 @@ constexpr double degrees = 180 / std::numbers::pi;
 
 void write_quality(const std::filesystem::path& file, const ScannedAssembly& assembly) {
   std::string text =
-      "grain,voxels,volume_m3,volume_over_labels,volume_over_gray,level,gradient_error,"
+      "grain,label,voxels,volume_m3,volume_over_labels,volume_over_gray,level,gradient_error,"
       "surface_distance_m,area_kept,neighbours,contacts,deepest_overlap_m\n";
   for (std::size_t n = 0; n < assembly.quality.size(); ++n) {
     const AvatarQuality& q = assembly.quality[n];
-    text +=
-        fmt::format("{},{},{},{:.6f},{:.6f},{:.4f},{:.6f},{:.6g},{:.5f},{},{},{:.6g}\n",
-                    assembly.shapes[n].entry().name, q.voxels, q.volume, q.volume / q.label_volume,
-                    q.volume / q.gray_volume, q.level, q.gradient_error, q.surface_distance,
-                    q.area_kept, q.neighbours, q.contacts, q.deepest_overlap);
+    text += fmt::format(
+        "{},{},{},{},{:.6f},{:.6f},{:.4f},{:.6f},{:.6g},{:.5f},{},{},{:.6g}\n",
+        assembly.shapes[n].entry().name, q.given_label == 0 ? q.label : q.given_label, q.voxels,
+        q.volume, q.volume / q.label_volume, q.volume / q.gray_volume, q.level, q.gradient_error,
+        q.surface_distance, q.area_kept, q.neighbours, q.contacts, q.deepest_overlap);
   }
   write_file(file, text);
 }
@@ -110,6 +111,12 @@ void ScanReport::begin(const std::string& stage) {
   end_stage();
   stage_ = stage;
   start_ = std::chrono::steady_clock::now();
+}
+
+void ScanReport::remark(const std::string& text) {
+  fmt::print("note       {}\n", text);
+  std::fflush(stdout);
+  remarks_.push_back(text);
 }
 
 void ScanReport::segmented(const Segmentation& scan, ScanStage last) {
@@ -203,7 +210,7 @@ void ScanReport::compare(const std::string& truth_folder, const ScannedAssembly&
   ScanTruth truth;
   truth.shapes = load_library(folder / "library.h5");
   truth.grains = read_placement(folder / "placement.csv", truth.shapes.size());
-  truth.labels = load_labels({folder / "labels.h5", scan.labels.voxel(), {}}, scan.work);
+  truth.labels = load_labels({folder / "labels.h5", scan.labels.voxel(), {}}, scan.work).volume;
   const TruthFigures f = compare_with_truth(truth, assembly, scan.labels, scan.work);
   fmt::print("truth      {} of {} grains found once ({:.2f} %), {} split, {} joined\n",
              f.found_once, f.grains, 100.0 * f.found_once / std::max(1U, f.grains), f.split,
@@ -238,6 +245,9 @@ void ScanReport::compare(const std::string& truth_folder, const ScannedAssembly&
 
 void ScanReport::finish() {
   end_stage();
+  json_.begin_array("remarks");
+  for (const std::string& text : remarks_) json_.value({}, text);
+  json_.end();
   json_.begin_object("seconds");
   for (const auto& [stage, seconds] : seconds_) json_.value(stage, seconds);
   json_.end();

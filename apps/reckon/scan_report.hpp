@@ -19,6 +19,8 @@ class ScanReport {
   explicit ScanReport(std::filesystem::path folder);
 
   void begin(const std::string& stage);
+  /// What was assumed, or looks doubtful.
+  void remark(const std::string& text);
   void segmented(const Segmentation& scan, ScanStage last);
   /// Also writes quality.csv, contacts.csv and the scene that relaxes the assembly.
   void avatars(const ScannedAssembly& assembly, double voxel);
@@ -35,6 +37,7 @@ class ScanReport {
   std::string stage_;
   std::chrono::steady_clock::time_point start_;
   std::vector<std::pair<std::string, double>> seconds_;
+  std::vector<std::string> remarks_;
 };
 
 }  // namespace reckon::app

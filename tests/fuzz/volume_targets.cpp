@@ -54,6 +54,46 @@ Target image_target(const std::string& ending) {
           .cost = 10};
 }
 
+/// Headers beside their data, or with fields that say how the data lie.
+Target layout_target(const std::string& ending, std::vector<std::string> inputs) {
+  const auto folder = std::make_shared<const ScratchFolder>();
+  return {.name = "volume_layout_" + ending,
+          .valid_inputs = [inputs = std::move(inputs)] { return inputs; },
+          .read =
+              [folder, ending](const std::string& input) {
+                (void)folder->write("0.raw", std::string(30, '\x3c'));
+                (void)folder->write("1.raw", std::string(30, '\x3d'));
+                (void)read_volume({folder->write("layout." + ending, input), 2e-6, {}});
+              },
+          .cost = 10};
+}
+
+std::vector<Target> layout_targets() {
+  const std::string nrrd = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 4 2\nencoding: raw\n";
+  const std::string meta = "NDims = 3\nDimSize = 3 4 2\nElementType = MET_UCHAR\n";
+  return {
+      layout_target("nhdr",
+                    {nrrd + "byte skip: 6\nline skip: 0\ndata file: 0.raw\n",
+                     nrrd + "space directions: (2,0,0) (0,-2,0) (0,0,2)\nspace units: \"um\" "
+                            "\"um\" \"um\"\nbyte skip: -1\ndata file: 0.raw\n",
+                     "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 1 5 6 2\nencoding: raw\n"
+                     "axis mins: 0 0 0 0\naxis maxs: 1 10 12 4\ndata file: LIST\n0.raw\n1.raw\n",
+                     "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 5 6 2\nencoding: raw\n"
+                     "data file: %01d.raw 0 1 1\n"}),
+      layout_target("mhd", {meta + "HeaderSize = 6\nElementSpacing = 2 2 2\nDistanceUnits = um\n"
+                                   "ElementDataFile = 0.raw\n",
+                            meta + "TransformMatrix = 1 0 0 0 1 0 0 0 -1\nHeaderSize = -1\n"
+                                   "Modality = MET_MOD_CT\nElementDataFile = 0.raw\n",
+                            "NDims = 3\nDimSize = 5 6 2\nElementType = MET_UCHAR\n"
+                            "ElementDataFile = LIST\n0.raw\n1.raw\n",
+                            "NDims = 3\nDimSize = 5 6 2\nElementType = MET_UCHAR\n"
+                            "ElementDataFile = %d.raw 0 1 1\n"}),
+      layout_target("tif", {testing::imagej_stack(std::string(24, '\x21'), 3, 4,
+                                                  "ImageJ=1\nimages=2\nslices=2\nunit=um\n"
+                                                  "spacing=2\n",
+                                                  2, true)})};
+}
+
 }  // namespace
 
 Target volume_npy_target() {
@@ -89,7 +129,9 @@ Target volume_raw_target() {
 }
 
 std::vector<Target> image_targets() {
-  return {image_target("mha"), image_target("nrrd"), image_target("tif")};
+  std::vector<Target> targets{image_target("mha"), image_target("nrrd"), image_target("tif")};
+  for (Target& target : layout_targets()) targets.push_back(std::move(target));
+  return targets;
 }
 
 Target placement_target() {

@@ -56,6 +56,8 @@ struct TiffLayout {
   int orientation{ORIENTATION_TOPLEFT};
   std::uint32_t tile{0};  ///< its edge; 0: strips of two rows
   const char* mode{"w"};
+  std::string description{};  ///< of each page; empty: none
+  double pixels_per_unit{0};  ///< 0: not said
 };
 
 /// Pages of `width` x `height` numbers, as they lie in memory.
@@ -72,6 +74,14 @@ inline void write_tiff(const std::filesystem::path& file, const std::string& num
     TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, layout.meaning);
     TIFFSetField(tiff, TIFFTAG_ORIENTATION, layout.orientation);
     TIFFSetField(tiff, TIFFTAG_COMPRESSION, layout.compression);
+    if (!layout.description.empty()) {
+      TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, layout.description.c_str());
+    }
+    if (layout.pixels_per_unit > 0) {
+      TIFFSetField(tiff, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
+      TIFFSetField(tiff, TIFFTAG_XRESOLUTION, layout.pixels_per_unit);
+      TIFFSetField(tiff, TIFFTAG_YRESOLUTION, layout.pixels_per_unit);
+    }
     const auto bytes = [&](std::uint32_t x, std::uint32_t y) {
       return numbers.substr(at + size * (x + std::size_t{y} * width), size);
     };
@@ -101,6 +111,53 @@ inline void write_tiff(const std::filesystem::path& file, const std::string& num
     TIFFWriteDirectory(tiff);
   }
   TIFFClose(tiff);
+}
+
+/// A stack as ImageJ writes those that plain TIFF could not hold: the directory of the first image
+/// alone, and all images of bytes behind it. `edge`: of a pixel, in the description's unit.
+inline std::string imagej_stack(const std::string& numbers, std::uint32_t width,
+                                std::uint32_t height, const std::string& description,
+                                std::uint32_t edge, bool big_endian) {
+  constexpr std::uint16_t text = 2;
+  constexpr std::uint16_t short_number = 3;
+  constexpr std::uint16_t long_number = 4;
+  constexpr std::uint16_t ratio = 5;
+  std::string bytes = big_endian ? "MM" : "II";
+  const auto put = [&](std::uint32_t value, int size) {
+    for (int n = 0; n < size; ++n) {
+      const int shift = 8 * (big_endian ? size - 1 - n : n);
+      bytes += static_cast<char>((value >> static_cast<unsigned>(shift)) & 255U);
+    }
+  };
+  constexpr std::uint32_t entries = 11;
+  const std::uint32_t behind = 8 + 2 + 12 * entries + 4;
+  const auto length = static_cast<std::uint32_t>(description.size() + 1);
+  const auto entry = [&](std::uint16_t tag, std::uint16_t type, std::uint32_t count,
+                         std::uint32_t value) {
+    put(tag, 2);
+    put(type, 2);
+    put(count, 4);
+    put(value, type == short_number ? 2 : 4);
+    if (type == short_number) put(0, 2);
+  };
+  put(42, 2);
+  put(8, 4);
+  put(entries, 2);
+  entry(256, long_number, 1, width);
+  entry(257, long_number, 1, height);
+  entry(258, short_number, 1, 8);
+  entry(259, short_number, 1, 1);
+  entry(262, short_number, 1, 1);
+  entry(270, text, length, behind + 8);
+  entry(273, long_number, 1, behind + 8 + length);
+  entry(278, long_number, 1, height);
+  entry(279, long_number, 1, width * height);
+  entry(282, ratio, 1, behind);
+  entry(283, ratio, 1, behind);
+  put(0, 4);
+  put(1, 4);
+  put(edge, 4);
+  return bytes + description + '\0' + numbers;
 }
 
 }  // namespace reckon::testing

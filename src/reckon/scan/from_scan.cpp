@@ -13,6 +13,7 @@
 #include "reckon/core/hdf5_file.hpp"
 #include "reckon/core/xxhash64.hpp"
 #include "reckon/scan/image_filters.hpp"
+#include "reckon/scan/label_pieces.hpp"
 
 namespace reckon {
 namespace {
@@ -69,8 +70,12 @@ std::optional<DiskVolume<Value>> recall(const std::filesystem::path& file, Key k
 class Segmenter {
  public:
   Segmenter(const SegmentSettings& settings, std::filesystem::path folder,
-            const std::function<void(ScanStage)>& on_stage)
-      : settings_{settings}, folder_{std::move(folder)}, on_stage_{on_stage} {
+            const std::function<void(ScanStage)>& on_stage,
+            const std::function<void(const std::string&)>& on_remark)
+      : settings_{settings},
+        folder_{std::move(folder)},
+        on_stage_{on_stage},
+        on_remark_{on_remark} {
     scan_.work = {folder_, settings.memory, settings.overlap};
   }
 
@@ -79,9 +84,11 @@ class Segmenter {
     if (settings_.labelled) return run_labelled();
     begin(ScanStage::read);
     XxHash64 hash;
-    scan_.raw = load_volume(settings_.volume, scan_.work, [&](const GrayVolume& layers) {
+    auto loaded = load_volume(settings_.volume, scan_.work, [&](const GrayVolume& layers) {
       hash.update(std::as_bytes(std::span{layers.values}));
     });
+    scan_.raw = std::move(loaded.volume);
+    remark(loaded.remarks);
     hash.update(std::as_bytes(std::span{scan_.raw.dims()}));
     key_ = hash.digest();
     if (last >= ScanStage::denoise) denoise();
@@ -102,6 +109,12 @@ class Segmenter {
     scan_.solid_share = static_cast<double>(solid) / static_cast<double>(scan_.mask.box().voxels());
   }
 
+  void remark(const std::vector<std::string>& remarks) {
+    for (const std::string& text : remarks) {
+      scan_.remarks.push_back(text);
+      if (on_remark_) on_remark_(text);
+    }
+  }
   void begin(ScanStage stage) {
     if (on_stage_) on_stage_(stage);
   }
@@ -113,27 +126,31 @@ class Segmenter {
   Segmentation run_labelled() {
     begin(ScanStage::read);
     const Workspace& work = scan_.work;
-    LabelsOnDisk given = load_labels(settings_.volume, work);
-    scan_.labels = LabelsOnDisk{given.dims(), given.voxel(), folder_};
+    const auto loaded = load_labels(settings_.volume, work);
+    remark(loaded.remarks);
+    const LabelsOnDisk& given = loaded.volume;
+    pieces_ = find_label_pieces(given, work);
+    scan_.labels = pieces_->labels;
     scan_.mask = MaskOnDisk{given.dims(), given.voxel(), folder_};
     GrayOnDisk solid{given.dims(), given.voxel(), folder_};
-    Renumbering numbering;
     for (const Box& slab : work.slabs(given.dims())) {
-      LabelVolume labels = given.read(slab);
-      numbering.apply(labels);
+      const LabelVolume labels = given.read(slab);
       MaskVolume mask{labels};
       GrayVolume gray{labels};
       for (std::size_t v = 0; v < labels.values.size(); ++v) {
         mask.values[v] = labels.values[v] != 0 ? 1 : 0;
         gray.values[v] = mask.values[v];
       }
-      scan_.labels.write(labels, slab);
       scan_.mask.write(mask, slab);
       solid.write(gray, slab);
     }
-    scan_.raw = settings_.gray.empty()
-                    ? solid
-                    : load_volume({settings_.gray, settings_.volume.voxel, {}}, work);
+    scan_.raw = solid;
+    if (!settings_.gray.empty()) {
+      auto gray =
+          load_volume({settings_.gray, settings_.volume.voxel, {}, settings_.volume.invert}, work);
+      scan_.raw = std::move(gray.volume);
+      remark(gray.remarks);
+    }
     if (scan_.raw.dims() != given.dims()) {
       const VoxelDims& gray = scan_.raw.dims();
       const VoxelDims& labels = given.dims();
@@ -212,6 +229,10 @@ class Segmenter {
   void choose() {
     begin(ScanStage::choose);
     scan_.grains = measure_labels(scan_.labels, scan_.work);
+    if (pieces_) {
+      name_by_label(scan_.grains, *pieces_);
+      remark(label_remarks(scan_.grains, settings_.fewest_voxels));
+    }
     scan_.choice = choose_grains(scan_.grains, settings_.keep_border, settings_.fewest_voxels);
     if (!scan_.choice.kept.empty()) return;
     throw Error{
@@ -226,7 +247,9 @@ class Segmenter {
   const SegmentSettings& settings_;
   std::filesystem::path folder_;
   const std::function<void(ScanStage)>& on_stage_;
+  const std::function<void(const std::string&)>& on_remark_;
   Segmentation scan_;
+  std::optional<LabelPieces> pieces_;  // of labels that were given
   Key key_{0};
 };
 
@@ -249,8 +272,9 @@ const char* name_of(ScanStage stage) {
 }
 
 Segmentation segment_scan(const SegmentSettings& settings, const std::filesystem::path& folder,
-                          ScanStage last, const std::function<void(ScanStage)>& on_stage) {
-  return Segmenter{settings, folder, on_stage}.run(last);
+                          ScanStage last, const std::function<void(ScanStage)>& on_stage,
+                          const std::function<void(const std::string&)>& on_remark) {
+  return Segmenter{settings, folder, on_stage, on_remark}.run(last);
 }
 
 }  // namespace reckon

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "reckon/scan/labels.hpp"
 #include "reckon/scan/scan_avatars.hpp"
@@ -43,16 +44,19 @@ struct Segmentation {
   BlockFigures blocks;
   std::vector<LabelledGrain> grains;
   GrainChoice choice;
-  std::vector<ScanStage> resumed;  ///< stages whose results were found, not computed
+  std::vector<ScanStage> resumed;    ///< stages whose results were found, not computed
+  std::vector<std::string> remarks;  ///< what was assumed, and what looks doubtful
 };
 
 /// Runs the stages up to `last`, within the memory that the settings allow. Each leaves its volume
 /// in `folder`, a sealed file that also says what it was made from and with which settings, and is
-/// read instead of computed when both are still the same. `on_stage` is called before each. Throws
-/// Error; files appear only when complete.
+/// read instead of computed when both are still the same. `on_stage` is called before each, and
+/// `on_remark` with each of Segmentation::remarks as soon as it is known. Throws Error; files
+/// appear only when complete.
 [[nodiscard]] Segmentation segment_scan(const SegmentSettings& settings,
                                         const std::filesystem::path& folder, ScanStage last,
-                                        const std::function<void(ScanStage)>& on_stage);
+                                        const std::function<void(ScanStage)>& on_stage,
+                                        const std::function<void(const std::string&)>& on_remark);
 
 [[nodiscard]] const char* name_of(ScanStage stage);
 

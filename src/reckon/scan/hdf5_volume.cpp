@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reckon/core/file.hpp"
 #include "reckon/core/hdf5_handle.hpp"
@@ -15,15 +17,31 @@
 namespace reckon {
 namespace {
 
-int rank_of(hid_t dataset) {
+/// Lengths of a dataset's axes, x first.
+std::vector<std::int64_t> lengths_of(hid_t dataset) {
   const Hdf5Handle space{H5Dget_space(dataset), H5Sclose};
-  return H5Sget_simple_extent_ndims(space.get());
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  std::vector<hsize_t> extents(static_cast<std::size_t>(std::max(rank, 0)));
+  if (rank > 0) H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr);
+  std::vector<std::int64_t> lengths;
+  lengths.reserve(extents.size());
+  for (const hsize_t extent : extents) lengths.push_back(static_cast<std::int64_t>(extent));
+  std::reverse(lengths.begin(), lengths.end());
+  return lengths;
+}
+
+/// Whether a dataset has three axes that count.
+bool is_volume(hid_t dataset) {
+  const std::vector<std::int64_t> lengths = lengths_of(dataset);
+  const auto longer = std::count_if(lengths.begin(), lengths.end(),
+                                    [](std::int64_t length) { return length != 1; });
+  return lengths.size() >= 3 && longer <= 3;
 }
 
 herr_t collect_volumes(hid_t root, const char* name, const H5O_info_t* info, void* data) {
   if (info->type != H5O_TYPE_DATASET) return 0;
   const Hdf5Handle dataset{H5Dopen2(root, name, H5P_DEFAULT), H5Dclose};
-  if (dataset.valid() && rank_of(dataset.get()) == 3) {
+  if (dataset.valid() && is_volume(dataset.get())) {
     static_cast<std::vector<std::string>*>(data)->emplace_back(name);
   }
   return 0;
@@ -85,13 +103,21 @@ Extents extents_of(const VoxelDims& dims) {
           static_cast<hsize_t>(dims[0])};
 }
 
-/// A dataset's space with layers selected.
-hid_t select(hid_t dataset, hsize_t first, const Extents& extents) {
-  const Extents start{first, 0, 0};
+/// A dataset's space with layers selected. `places`: which of its axes are z, y and x; the others
+/// have length 1.
+hid_t select(hid_t dataset, hsize_t first, const Extents& extents,
+             const std::array<std::size_t, 3>& places) {
   const hid_t space = H5Dget_space(dataset);
-  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extents.data(), nullptr);
+  const auto rank = static_cast<std::size_t>(H5Sget_simple_extent_ndims(space));
+  std::vector<hsize_t> start(rank, 0);
+  std::vector<hsize_t> count(rank, 1);
+  start[places[0]] = first;
+  for (std::size_t n = 0; n < 3; ++n) count[places[n]] = extents[n];
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
   return space;
 }
+
+constexpr std::array<std::size_t, 3> plain_places{0, 1, 2};
 
 class Hdf5VolumeReader : public VolumeReader {
  public:
@@ -104,26 +130,19 @@ class Hdf5VolumeReader : public VolumeReader {
       refuse_volume(file, fmt::format("there is no dataset {}", name_), {},
                     "h5dump -n lists what it holds.");
     }
-    if (const int rank = rank_of(dataset_.get()); rank != 3) {
-      refuse_volume(file, fmt::format("{} is no volume", name_),
-                    fmt::format("it has {} dimensions", rank), "Choose another with --dataset.");
-    }
-    Extents extents{};
-    {
-      const Hdf5Handle space{H5Dget_space(dataset_.get()), H5Sclose};
-      H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr);
-    }
-    check_dims({static_cast<std::int64_t>(extents[2]), static_cast<std::int64_t>(extents[1]),
-                static_cast<std::int64_t>(extents[0])},
-               std::uint64_t{1} << 40U, file.string());
+    const std::vector<std::int64_t> lengths = lengths_of(dataset_.get());
+    const auto axes = axes_that_count(lengths, fmt::format("{}, {}", file.string(), name_));
+    check_dims({lengths[axes[0]], lengths[axes[1]], lengths[axes[2]]}, std::uint64_t{1} << 40U,
+               file.string());
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      outline.dims[axis] = static_cast<std::int32_t>(extents[2 - axis]);
+      outline.dims[axis] = static_cast<std::int32_t>(lengths[axes[axis]]);
+      places_[2 - axis] = lengths.size() - 1 - axes[axis];
     }
     outline.type = type_of(dataset_.get());
     const Hdf5Handle attribute{H5Aopen(dataset_.get(), "voxel", H5P_DEFAULT), H5Aclose};
     double spacing = 0;
     if (attribute.valid() && H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &spacing) >= 0) {
-      outline.spacing = spacing;
+      outline.spacing = {spacing, {}, "the attribute voxel"};
     }
   }
 
@@ -131,7 +150,8 @@ class Hdf5VolumeReader : public VolumeReader {
     const QuietHdf5 quiet;
     GrayVolume layers{Box{{0, 0, first}, {outline.dims[0], outline.dims[1], count}}, 0};
     const auto extents = extents_of(layers.dims);
-    const Hdf5Handle space{select(dataset_.get(), static_cast<hsize_t>(first), extents), H5Sclose};
+    const Hdf5Handle space{select(dataset_.get(), static_cast<hsize_t>(first), extents, places_),
+                           H5Sclose};
     const Hdf5Handle memory{H5Screate_simple(3, extents.data(), nullptr), H5Sclose};
     if (H5Dread(dataset_.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT,
                 layers.values.data()) < 0) {
@@ -155,6 +175,7 @@ class Hdf5VolumeReader : public VolumeReader {
   Hdf5Handle file_;
   std::string name_;
   Hdf5Handle dataset_;
+  std::array<std::size_t, 3> places_{};  // of z, y and x among the dataset's axes
 };
 
 class Hdf5VolumeWriter : public VolumeWriter {
@@ -172,7 +193,7 @@ class Hdf5VolumeWriter : public VolumeWriter {
     const Hdf5Handle attribute{H5Acreate2(dataset_->get(), "voxel", H5T_IEEE_F64LE, scalar.get(),
                                           H5P_DEFAULT, H5P_DEFAULT),
                                H5Aclose};
-    require(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &what.spacing.value()) >= 0);
+    require(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &what.spacing.edge.value()) >= 0);
   }
   ~Hdf5VolumeWriter() override {
     const QuietHdf5 quiet;
@@ -183,7 +204,7 @@ class Hdf5VolumeWriter : public VolumeWriter {
     const QuietHdf5 quiet;
     const std::string bytes = encode_numbers(layers.values, what_.type);
     const auto extents = extents_of(layers.dims);
-    const Hdf5Handle space{select(dataset_->get(), next_, extents), H5Sclose};
+    const Hdf5Handle space{select(dataset_->get(), next_, extents, plain_places), H5Sclose};
     const Hdf5Handle memory{H5Screate_simple(3, extents.data(), nullptr), H5Sclose};
     require(H5Dwrite(dataset_->get(), stored_type(what_.type), memory.get(), space.get(),
                      H5P_DEFAULT, bytes.data()) >= 0);

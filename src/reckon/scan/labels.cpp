@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/scan/labels.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -52,7 +54,7 @@ void add_voxels(const LabelVolume& labels, const Box& all, std::vector<LabelledG
     const std::uint32_t label = labels.values[v++];
     if (label == 0) return;
     if (label > grains.size()) {
-      grains.resize(label, {{all.end(0), all.end(1), all.end(2)}, {}, 0, false});
+      grains.resize(label, {.low = {all.end(0), all.end(1), all.end(2)}});
     }
     LabelledGrain& grain = grains[label - 1];
     ++grain.voxels;
@@ -135,6 +137,12 @@ void Renumbering::apply(LabelVolume& labels) {
     if (number_[label] == 0) number_[label] = ++count_;
     label = number_[label];
   }
+}
+
+std::string name_of(const LabelledGrain& grain, std::uint32_t label) {
+  if (grain.given == 0) return fmt::format("grain_{}", label);
+  if (grain.piece == 1) return fmt::format("grain_{}", grain.given);
+  return fmt::format("grain_{}_{}", grain.given, grain.piece);
 }
 
 std::vector<LabelledGrain> measure_labels(const LabelsOnDisk& labels, const Workspace& work) {

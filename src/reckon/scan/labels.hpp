@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -83,8 +84,13 @@ struct LabelledGrain {
   VoxelDims low{0, 0, 0};   ///< least voxel along each axis
   VoxelDims high{0, 0, 0};  ///< largest
   std::uint64_t voxels{0};
-  bool on_border{false};  ///< holds a voxel of the volume's outermost layers
+  bool on_border{false};   ///< holds a voxel of the volume's outermost layers
+  std::uint32_t given{0};  ///< its label in a volume of labels that was given; 0: none was
+  std::uint32_t piece{1};  ///< which of that label's pieces, by falling size
 };
+
+/// What a grain with this label is called: by the label that was given, if one was.
+[[nodiscard]] std::string name_of(const LabelledGrain& grain, std::uint32_t label);
 
 /// All grains; the one with label n is at n - 1.
 [[nodiscard]] std::vector<LabelledGrain> measure_labels(const LabelsOnDisk& labels,

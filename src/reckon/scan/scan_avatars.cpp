@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/scan/scan_avatars.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -60,6 +58,7 @@ AvatarQuality judge(const Shape& shape, const GrainSurface& surface, const Trian
                     std::uint32_t label, const LabelledGrain& grain) {
   AvatarQuality quality;
   quality.label = label;
+  quality.given_label = grain.given;
   quality.voxels = grain.voxels;
   quality.label_volume = surface.label_volume;
   quality.gray_volume = surface.gray_volume;
@@ -122,7 +121,7 @@ Avatar make_avatar(const SegmentedScan& scan, std::uint32_t label, const Labelle
   const PrincipalFrame frame = principal_frame(solid_properties(surface.mesh_world));
   const TriangleMesh body_mesh = to_frame(surface.mesh_world, frame);
   Avatar avatar;
-  Shape shape = build_shape(body_mesh, settings.resolution, fmt::format("grain_{}", label));
+  Shape shape = build_shape(body_mesh, settings.resolution, name_of(grain, label));
   avatar.quality = judge(shape, surface, body_mesh, label, grain);
   avatar.shape = KeptShape{std::move(shape)};
   avatar.grain.position = frame.origin_mesh;

@@ -21,6 +21,7 @@ namespace reckon {
 /// How well an avatar stands for its scanned grain.
 struct AvatarQuality {
   std::uint32_t label{0};
+  std::uint32_t given_label{0};  ///< LabelledGrain::given
   std::uint64_t voxels{0};
   double label_volume{0};       ///< of its voxels [m^3]
   double gray_volume{0};        ///< of its solid shares [m^3]

@@ -164,6 +164,59 @@ TiffPage describe_page(const TiffFile& file) {
   return {static_cast<std::int32_t>(width), static_cast<std::int32_t>(height), *type};
 }
 
+TiffFrame describe_frame(const TiffFile& file) {
+  TiffFrame frame;
+  const std::string place = file.path().string();
+  char* text = nullptr;
+  if (TIFFGetField(file.get(), TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text != nullptr) {
+    frame.description = parse_tiff_description(text);
+  }
+  const TiffDescription& said = frame.description;
+  if (std::count_if(said.per_axis.begin(), said.per_axis.end(),
+                    [](std::uint64_t count) { return count > 1; }) > 1) {
+    refuse_volume(place, "the file holds several volumes whose slices alternate",
+                  fmt::format("ImageJ counts {} channels, {} slices and {} frames",
+                              said.per_axis[0], said.per_axis[1], said.per_axis[2]),
+                  "Save one channel and one frame alone.");
+  }
+  // Picture programs write dots per inch that mean nothing for a scan.
+  const auto edge = [&](std::uint32_t tag) {
+    const auto resolution = field<float>(file, tag);
+    return resolution > 0 ? 1.0 / static_cast<double>(resolution) : 1.0;
+  };
+  if (said.by_imagej && (said.z_edge || !said.unit.empty())) {
+    const double x = edge(TIFFTAG_XRESOLUTION);
+    const auto unit = file_unit(said.unit);
+    if (said.z_edge || unit) {
+      set_spacing(frame.spacing, {x, edge(TIFFTAG_YRESOLUTION), said.z_edge.value_or(x)},
+                  "ImageJ's description", place);
+    }
+    frame.spacing.unit = unit;
+  } else if (said.x_edge && said.y_edge) {
+    set_spacing(frame.spacing, {*said.x_edge, *said.y_edge, said.z_edge.value_or(*said.x_edge)},
+                "OME's PhysicalSize", place);
+    frame.spacing.unit = file_unit(said.unit);
+  }
+  return frame;
+}
+
+std::optional<std::uint64_t> place_of_plain_page(const TiffFile& file, bool& big_endian) {
+  TIFF* const tiff = file.get();
+  const bool plain =
+      TIFFIsTiled(tiff) == 0 &&
+      field<std::uint16_t>(file, TIFFTAG_COMPRESSION, COMPRESSION_NONE) == COMPRESSION_NONE &&
+      field<std::uint16_t>(file, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT) == ORIENTATION_TOPLEFT;
+  if (!plain) return std::nullopt;
+  for (std::uint32_t strip = 1; strip < TIFFNumberOfStrips(tiff); ++strip) {
+    if (TIFFGetStrileOffset(tiff, strip) !=
+        TIFFGetStrileOffset(tiff, strip - 1) + TIFFGetStrileByteCount(tiff, strip - 1)) {
+      return std::nullopt;
+    }
+  }
+  big_endian = TIFFIsByteSwapped(tiff) != 0;  // this machine is little-endian
+  return TIFFGetStrileOffset(tiff, 0);
+}
+
 void read_page(const TiffFile& file, const TiffPage& page, std::span<std::byte> bytes) {
   if (TIFFIsTiled(file.get()) != 0) {
     read_tiles(file, page, bytes);

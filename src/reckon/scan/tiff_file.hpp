@@ -5,9 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "reckon/scan/tiff_description.hpp"
 #include "reckon/scan/volume_formats.hpp"
 
 using TIFF = struct tiff;
@@ -59,6 +62,20 @@ struct TiffPage {
 /// What the present page says of itself. Throws Error when it is not in shades of gray, or when
 /// its pixels lie beyond the file's end.
 [[nodiscard]] TiffPage describe_page(const TiffFile& file);
+/// What the present page says about its voxels, and the description of all.
+struct TiffFrame {
+  TiffDescription description;
+  FileSpacing spacing;
+  std::vector<std::string> remarks;
+};
+/// Throws Error when the file says that voxels are no cubes, or that it holds several volumes whose
+/// slices alternate.
+[[nodiscard]] TiffFrame describe_frame(const TiffFile& file);
+/// Where the numbers of the present page begin if they lie in one piece, as they are, rows from the
+/// top; `big_endian` is set.
+[[nodiscard]] std::optional<std::uint64_t> place_of_plain_page(const TiffFile& file,
+                                                               bool& big_endian);
+
 /// Fills `bytes` with the page's numbers in this machine's order, rows as they are to be shown from
 /// the top.
 void read_page(const TiffFile& file, const TiffPage& page, std::span<std::byte> bytes);

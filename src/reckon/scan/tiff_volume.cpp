@@ -9,6 +9,7 @@
 
 #include "reckon/core/file.hpp"
 #include "reckon/scan/byte_layers.hpp"
+#include "reckon/scan/slice_order.hpp"
 #include "reckon/scan/tiff_file.hpp"
 
 namespace reckon {
@@ -16,8 +17,33 @@ namespace {
 
 constexpr bool numbers_big_endian = false;  // the library turns them as this machine has them
 
-VolumeOutline stack_of(const TiffPage& page, std::size_t count) {
-  return {{page.width, page.height, static_cast<std::int32_t>(count)}, page.type, {}};
+VolumeOutline stack_of(const TiffPage& page, std::size_t count, const TiffFrame& frame) {
+  return {{page.width, page.height, static_cast<std::int32_t>(count)},
+          page.type,
+          frame.spacing,
+          frame.remarks};
+}
+
+/// All slices behind the first, of which alone the file has a directory: how ImageJ stores stacks
+/// that plain TIFF could not hold.
+std::unique_ptr<VolumeReader> open_one_directory(const TiffFile& file, const TiffPage& page,
+                                                 const TiffFrame& frame) {
+  VolumeHeader header;
+  const auto place = place_of_plain_page(file, header.big_endian);
+  const std::string name = file.path().string();
+  if (!place || frame.description.images > 2147483647) {
+    refuse_volume(name, "the file's slices are not found",
+                  fmt::format("ImageJ counts {} images, but there is one page, which is compressed "
+                              "or in pieces",
+                              frame.description.images),
+                  "Save the stack anew.");
+  }
+  header.dims = {page.width, page.height, static_cast<std::int64_t>(frame.description.images)};
+  header.type = page.type;
+  header.spacing = frame.spacing;
+  header.data_start = *place;
+  header.may_go_on = true;
+  return open_plain_volume(std::make_shared<const ByteFile>(file.path()), header);
 }
 
 void check_same(const TiffPage& page, const TiffPage& first, const std::filesystem::path& file,
@@ -36,11 +62,20 @@ class TiffStack : public ByteLayers {
   [[nodiscard]] static std::unique_ptr<VolumeReader> open(const std::filesystem::path& path) {
     TiffFile file{path};
     const TiffPage first = describe_page(file);
+    TiffFrame frame = describe_frame(file);
     std::vector<std::uint64_t> places{TIFFCurrentDirOffset(file.get())};
     while (TIFFLastDirectory(file.get()) == 0) {
       file.require(TIFFReadDirectory(file.get()) == 1, TiffFile::damaged);
       places.push_back(TIFFCurrentDirOffset(file.get()));
       check_same(describe_page(file), first, path, fmt::format("page {}", places.size()));
+    }
+    const std::uint64_t images = frame.description.images;
+    if (places.size() == 1 && images > 1) return open_one_directory(file, first, frame);
+    if (images > 0 && images != places.size()) {
+      frame.remarks.push_back(
+          fmt::format("ImageJ's description counts {} images, the file has {} "
+                      "pages, which are read",
+                      images, places.size()));
     }
     if (places.size() == 1) {
       refuse_volume(path, "the file has one slice only", "a volume has several",
@@ -48,12 +83,14 @@ class TiffStack : public ByteLayers {
     }
     check_dims({first.width, first.height, static_cast<std::int64_t>(places.size())},
                most_tiff_voxels(file, first.type), path.string());
-    return std::unique_ptr<VolumeReader>{new TiffStack{std::move(file), first, std::move(places)}};
+    return std::unique_ptr<VolumeReader>{
+        new TiffStack{std::move(file), first, std::move(places), frame}};
   }
 
  private:
-  TiffStack(TiffFile&& file, const TiffPage& page, std::vector<std::uint64_t>&& places)
-      : ByteLayers{stack_of(page, places.size()), numbers_big_endian},
+  TiffStack(TiffFile&& file, const TiffPage& page, std::vector<std::uint64_t>&& places,
+            const TiffFrame& frame)
+      : ByteLayers{stack_of(page, places.size(), frame), numbers_big_endian},
         file_{std::move(file)},
         page_{page},
         places_{std::move(places)} {}
@@ -72,9 +109,12 @@ class TiffStack : public ByteLayers {
 /// Files of one page each. All are looked at before the first is read.
 class TiffSlices : public ByteLayers {
  public:
-  explicit TiffSlices(std::vector<std::filesystem::path> files)
-      : ByteLayers{stack_of(only_page(files.front()), files.size()), numbers_big_endian},
-        files_{std::move(files)} {
+  explicit TiffSlices(SliceOrder order)
+      : ByteLayers{stack_of(only_page(order.files.front()), order.files.size(),
+                            describe_frame(TiffFile{order.files.front()})),
+                   numbers_big_endian},
+        files_{std::move(order.files)} {
+    outline.remarks.insert(outline.remarks.end(), order.remarks.begin(), order.remarks.end());
     const TiffPage first{outline.dims[0], outline.dims[1], outline.type};
     for (const std::filesystem::path& file : files_) {
       check_same(only_page(file), first, file, "this one");
@@ -163,8 +203,9 @@ std::unique_ptr<VolumeReader> open_tiff_volume(const std::filesystem::path& file
   return TiffStack::open(file);
 }
 
-std::unique_ptr<VolumeReader> open_tiff_slices(std::vector<std::filesystem::path> files) {
-  return std::make_unique<TiffSlices>(std::move(files));
+std::unique_ptr<VolumeReader> open_tiff_slices(std::vector<std::filesystem::path> files,
+                                               const std::string& folder) {
+  return std::make_unique<TiffSlices>(order_slices(std::move(files), folder));
 }
 
 }  // namespace reckon

@@ -33,14 +33,16 @@ bool is_tiff(const std::filesystem::path& file) {
 std::unique_ptr<VolumeReader> open_slices(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator{folder}) {
-    if (entry.is_regular_file() && is_tiff(entry.path())) files.push_back(entry.path());
+    const bool hidden = entry.path().filename().string().starts_with('.');
+    if (entry.is_regular_file() && is_tiff(entry.path()) && !hidden) {
+      files.push_back(entry.path());
+    }
   }
   if (files.empty()) {
     refuse_volume(folder, "the folder holds no TIFF slices", {},
                   "Name a folder of .tif files, one slice each, or a volume file.");
   }
-  std::sort(files.begin(), files.end());
-  return open_tiff_slices(std::move(files));
+  return open_tiff_slices(std::move(files), folder.string());
 }
 
 std::unique_ptr<VolumeReader> open_raw(const std::filesystem::path& file) {
@@ -60,18 +62,45 @@ std::string beginning_of(const ByteFile& file) {
   return bytes;
 }
 
-/// NumPy, MetaImage or NRRD: a header, and behind it or in another file the numbers.
+/// Where a file goes on after so many lines of text.
+std::uint64_t after_lines(const ByteFile& file, std::uint64_t start, std::uint64_t lines) {
+  std::vector<char> buffer(65536);
+  for (std::uint64_t at = start; lines > 0;) {
+    const std::uint64_t left = file.size() - std::min(file.size(), at);
+    if (left == 0) {
+      refuse_volume(file.path(), "the file is cut short",
+                    fmt::format("the header skips {} lines more than it has", lines),
+                    "Copy it again, or correct its header.");
+    }
+    const std::size_t count = std::min<std::uint64_t>(left, buffer.size());
+    file.read(at, std::as_writable_bytes(std::span{buffer}.first(count)));
+    for (std::size_t n = 0; n < count && lines > 0; ++n) {
+      if (buffer[n] == '\n' && --lines == 0) return at + n + 1;
+    }
+    at += count;
+  }
+  return start;
+}
+
+/// NumPy, MetaImage or NRRD: a header, and behind it or in other files the numbers.
 std::unique_ptr<VolumeReader> open_with_header(const std::filesystem::path& path,
                                                VolumeHeader (*parse)(std::string_view bytes,
                                                                      const std::string& place)) {
   auto file = std::make_shared<const ByteFile>(path);
   VolumeHeader header = parse(beginning_of(*file), path.string());
-  if (!header.data_file.empty()) {
-    file = std::make_shared<const ByteFile>(path.parent_path() / header.data_file);
-    header.data_start = 0;
+  if (header.data_files.size() > 1) {
+    header.data_start += header.skip_bytes;
+    std::vector<std::filesystem::path> files;
+    for (const std::string& name : header.data_files) files.push_back(path.parent_path() / name);
+    return mirrored(open_plain_files(std::move(files), header), header.mirrored);
   }
-  return header.compressed ? open_packed_volume(std::move(file), header)
-                           : open_plain_volume(std::move(file), header);
+  if (!header.data_files.empty()) {
+    file = std::make_shared<const ByteFile>(path.parent_path() / header.data_files.front());
+  }
+  header.data_start = after_lines(*file, header.data_start, header.skip_lines) + header.skip_bytes;
+  auto reader = header.compressed ? open_packed_volume(std::move(file), header)
+                                  : open_plain_volume(std::move(file), header);
+  return mirrored(std::move(reader), header.mirrored);
 }
 
 std::unique_ptr<VolumeReader> open_by_ending(const VolumeRequest& request) {
@@ -102,18 +131,32 @@ void check_finite(const GrayVolume& layers, const std::string& place) {
                 "Replace such values first.");
 }
 
-/// The file's own spacing has no sure unit, and many programs write 1 for "not known". If it fits
-/// in no unit, somebody is mistaken.
-void check_spacing(const std::optional<double>& spacing, double voxel, const std::string& place) {
-  if (!spacing || *spacing == 1) return;
-  for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
-    if (std::abs(*spacing * unit / voxel - 1) < 0.01) return;
+/// A spacing without a unit must fit one of m, mm, um and nm. Many programs write 1 without a unit
+/// for "not known".
+void check_spacing(VolumeOutline& outline, double voxel, const std::string& place) {
+  const FileSpacing& spacing = outline.spacing;
+  if (!spacing.edge) return;
+  const auto fits = [&](double unit) { return std::abs(*spacing.edge * unit / voxel - 1) < 0.01; };
+  if (spacing.unit) {
+    if (fits(*spacing.unit)) return;
+    refuse_volume(
+        place, fmt::format("{} gives another voxel than --voxel", spacing.field),
+        fmt::format("{:.6g} m in the file, {:.6g} m given", *spacing.edge * *spacing.unit, voxel),
+        "Check --voxel, or correct the file.");
   }
-  refuse_volume(
-      place, "the file tells another voxel than was given",
-      fmt::format("{:.6g} in the file, {:.6g} m given; they agree in none of m, mm, um and nm",
-                  *spacing, voxel),
-      "Check --voxel.");
+  for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
+    if (fits(unit)) return;
+  }
+  if (*spacing.edge == 1) {
+    outline.remarks.push_back(fmt::format(
+        "{} is 1 without a unit, which is taken as not known: --voxel counts", spacing.field));
+    return;
+  }
+  refuse_volume(place, fmt::format("{} gives another voxel than --voxel", spacing.field),
+                fmt::format("{:.6g} in the file without a unit, {:.6g} m given; they agree in "
+                            "none of m, mm, um and nm",
+                            *spacing.edge, voxel),
+                "Check --voxel, or correct the file.");
 }
 
 }  // namespace
@@ -132,39 +175,50 @@ void refuse_volume(const std::string& place, std::string problem, std::string re
 
 std::unique_ptr<VolumeReader> open_volume(const VolumeRequest& request) {
   auto reader = open_by_ending(request);
-  check_spacing(reader->outline.spacing, request.voxel, request.file.string());
+  check_spacing(reader->outline, request.voxel, request.file.string());
   return reader;
 }
+
+namespace {
+
+/// Bright and dark change places.
+void invert(GrayVolume& layers) {
+  for (float& value : layers.values) value = -value;
+}
+
+}  // namespace
 
 StoredVolume read_volume(const VolumeRequest& request) {
   const auto reader = open_volume(request);
   StoredVolume stored{reader->outline, reader->read_layers(0, reader->outline.dims[2])};
   check_finite(stored.gray, request.file.string());
+  if (request.invert) invert(stored.gray);
   stored.gray.voxel = request.voxel;
   return stored;
 }
 
-GrayOnDisk load_volume(const VolumeRequest& request, const Workspace& work,
-                       const std::function<void(const GrayVolume&)>& on_layers) {
+LoadedVolume<GrayOnDisk> load_volume(const VolumeRequest& request, const Workspace& work,
+                                     const std::function<void(const GrayVolume&)>& on_layers) {
   const auto reader = open_volume(request);
   GrayOnDisk volume{reader->outline.dims, request.voxel, work.folder};
   for (const Box& slab : work.slabs(volume.dims())) {
-    const GrayVolume layers = reader->read_layers(slab.low[2], slab.dims[2]);
+    GrayVolume layers = reader->read_layers(slab.low[2], slab.dims[2]);
     check_finite(layers, request.file.string());
+    if (request.invert) invert(layers);
     if (on_layers) on_layers(layers);
     volume.write(layers, slab);
   }
-  return volume;
+  return {std::move(volume), reader->outline.remarks};
 }
 
-LabelsOnDisk load_labels(const VolumeRequest& request, const Workspace& work) {
+LoadedVolume<LabelsOnDisk> load_labels(const VolumeRequest& request, const Workspace& work) {
   const auto reader = open_volume(request);
   LabelsOnDisk labels{reader->outline.dims, request.voxel, work.folder};
   for (const Box& slab : work.slabs(labels.dims())) {
     labels.write(to_labels(reader->read_layers(slab.low[2], slab.dims[2]), request.file.string()),
                  slab);
   }
-  return labels;
+  return {std::move(labels), reader->outline.remarks};
 }
 
 GrayVolume to_gray(const LabelVolume& labels) {

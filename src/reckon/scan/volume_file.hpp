@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "reckon/scan/blocks.hpp"
 #include "reckon/scan/disk_volume.hpp"
@@ -28,13 +29,22 @@ struct VolumeRequest {
   std::filesystem::path file;  ///< or a folder of TIFF slices
   double voxel{0};             ///< edge of a voxel [m]
   std::string dataset;         ///< HDF5 only; empty: the only one of three dimensions
+  bool invert{false};          ///< turn bright into dark, for scans in which void is bright
+};
+
+/// A voxel's edge as a file gives it.
+struct FileSpacing {
+  std::optional<double> edge;  ///< in `unit`
+  std::optional<double> unit;  ///< [m]; absent when the file does not say it
+  std::string field;           ///< name of the field that gives it
 };
 
 /// What a volume's file says about it.
 struct VolumeOutline {
   VoxelDims dims{0, 0, 0};
   VoxelType type{VoxelType::float32};
-  std::optional<double> spacing;  ///< a voxel's edge as the file tells it, in whatever unit
+  FileSpacing spacing;
+  std::vector<std::string> remarks;  ///< what was assumed about the file
 };
 
 /// A volume's file, of which layers across z are read.
@@ -58,10 +68,15 @@ struct StoredVolume : VolumeOutline {
 ///   .raw        numbers and nothing else; NAME.raw.txt beside it says what they are, in lines
 ///                 `dims NX NY NZ`, `type uint16`, `order little` (or big)
 ///   .npy        NumPy; the last axis is x
-///   .h5 .hdf5   a dataset of three dimensions, the last of which is x
+///   .h5 .hdf5   a dataset of three dimensions, the last of which is x; axes of length 1 do not
+///               count
 ///   .mha .mhd   MetaImage, plain or compressed
 ///   .nrrd .nhdr NRRD, raw or gzip
-///   .tif .tiff  a file of several pages, or a folder of slices in the order of their names
+///   .tif .tiff  a file of several pages, one in which ImageJ stored all slices behind the first,
+///               or a folder of slices in the order of the numbers in their names (slice_order.hpp)
+///
+/// Axes that a file runs backwards (NRRD's space directions, MetaImage's TransformMatrix) are
+/// mirrored, so that the volume lies as the header says. Axes that it turns are refused.
 ///
 /// Layers are read and unpacked as they are asked for, which is fastest from the first to the last.
 ///
@@ -70,11 +85,19 @@ struct StoredVolume : VolumeOutline {
 [[nodiscard]] std::unique_ptr<VolumeReader> open_volume(const VolumeRequest& request);
 /// All of a volume. Throws Error also when it holds values that are not finite.
 [[nodiscard]] StoredVolume read_volume(const VolumeRequest& request);
+/// A volume that was brought to disk, and what was assumed about its file.
+template <class Values>
+struct LoadedVolume {
+  Values volume;
+  std::vector<std::string> remarks;
+};
 /// Likewise, from file to file. `on_layers` sees it pass by.
-[[nodiscard]] GrayOnDisk load_volume(const VolumeRequest& request, const Workspace& work,
-                                     const std::function<void(const GrayVolume&)>& on_layers = {});
+[[nodiscard]] LoadedVolume<GrayOnDisk> load_volume(
+    const VolumeRequest& request, const Workspace& work,
+    const std::function<void(const GrayVolume&)>& on_layers = {});
 /// A volume of labels: whole numbers not below zero. Throws Error when a value is not.
-[[nodiscard]] LabelsOnDisk load_labels(const VolumeRequest& request, const Workspace& work);
+[[nodiscard]] LoadedVolume<LabelsOnDisk> load_labels(const VolumeRequest& request,
+                                                     const Workspace& work);
 
 /// Takes a volume from its first layer to its last. Its file appears when it is complete.
 class VolumeWriter {

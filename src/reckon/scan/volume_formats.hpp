@@ -43,9 +43,15 @@ struct VolumeHeader {
   VoxelType type{VoxelType::uint8};
   bool big_endian{false};
   bool compressed{false};
-  std::optional<double> spacing;
-  std::string data_file;        ///< beside the header; empty: the numbers follow the header
-  std::uint64_t data_start{0};  ///< length of the header
+  FileSpacing spacing;
+  std::array<bool, 3> mirrored{};       ///< axes that run backwards
+  std::vector<std::string> data_files;  ///< beside the header; none: the numbers follow the header
+  std::uint64_t data_start{0};          ///< where the numbers begin in a file
+  std::uint64_t skip_lines{0};          ///< lines of text that follow there, before the numbers
+  std::uint64_t skip_bytes{0};          ///< bytes behind these lines, before the numbers
+  bool at_end{false};                   ///< the numbers end with the file, wherever they begin
+  bool may_go_on{false};                ///< other things may follow the numbers
+  std::vector<std::string> remarks;
 };
 /// From the first bytes of a file. Throw Error for whatever they do not understand.
 [[nodiscard]] VolumeHeader parse_metaimage_header(std::string_view bytes, const std::string& place);
@@ -53,6 +59,17 @@ struct VolumeHeader {
 [[nodiscard]] VolumeHeader parse_npy_header(std::string_view bytes, const std::string& name);
 /// The text beside a raw volume.
 [[nodiscard]] VolumeHeader parse_raw_sidecar(std::string_view text, const std::string& name);
+/// The three axes that count: of more than three, those of length 1 are left out. Throws Error when
+/// three are not left.
+[[nodiscard]] std::array<std::size_t, 3> axes_that_count(const std::vector<std::int64_t>& lengths,
+                                                         const std::string& place);
+
+/// Metres in a unit of length as files name it: "um", "micron", "mm", ...
+[[nodiscard]] std::optional<double> file_unit(std::string_view name);
+/// Sets a spacing. Throws Error, naming the field, when the edges are not the same.
+void set_spacing(FileSpacing& spacing, const std::array<double, 3>& edges, std::string field,
+                 const std::string& place);
+
 /// How much of a file's beginning they need at most [bytes].
 inline constexpr std::size_t longest_header = 131072;
 
@@ -66,6 +83,12 @@ void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::st
 /// `data_start` on. Throws Error unless they end with the file.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_plain_volume(std::shared_ptr<const ByteFile> file,
                                                               const VolumeHeader& header);
+/// Likewise, with the same count of layers in each of several files.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_plain_files(
+    std::vector<std::filesystem::path> files, const VolumeHeader& header);
+/// The same volume with axes turned round.
+[[nodiscard]] std::unique_ptr<VolumeReader> mirrored(std::unique_ptr<VolumeReader> reader,
+                                                     const std::array<bool, 3>& axes);
 /// Likewise, as zlib or gzip packed them. Reading throws Error when they are damaged, cut short, or
 /// not as many as the header says.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_packed_volume(std::shared_ptr<const ByteFile> file,
@@ -74,11 +97,11 @@ void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::st
                                                              const std::string& dataset);
 /// A file of several pages, compressed or not.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_tiff_volume(const std::filesystem::path& file);
-/// Files of one page each, in this order.
+/// Files of one page each, in the order of the numbers in their names.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_tiff_slices(
-    std::vector<std::filesystem::path> files);
+    std::vector<std::filesystem::path> files, const std::string& folder);
 
-// Writing: an outline's `spacing` is the voxel's edge in metres.
+// Writing: an outline's spacing is in metres.
 
 [[nodiscard]] std::unique_ptr<VolumeWriter> create_hdf5_volume(const std::filesystem::path& file,
                                                                const VolumeOutline& what);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <numeric>
 
 #include "reckon/avatar/text_reader.hpp"
 #include "reckon/scan/volume_formats.hpp"
@@ -27,10 +28,9 @@ std::string_view value_after(std::string_view header, std::string_view key,
   return rest.substr(0, rest.find(close));
 }
 
-/// The lengths in "(nz, ny, nx", z first.
+/// The lengths in "(nz, ny, nx", x first.
 std::array<std::int64_t, 3> numpy_shape(std::string_view text, const std::string& place) {
-  std::array<std::int64_t, 3> shape{};
-  std::size_t count = 0;
+  std::vector<std::int64_t> shape;
   for (const char* at = text.data(); at < text.data() + text.size();) {
     if (*at < '0' || *at > '9') {
       ++at;
@@ -40,15 +40,12 @@ std::array<std::int64_t, 3> numpy_shape(std::string_view text, const std::string
     const auto [end, code] = std::from_chars(at, text.data() + text.size(), length);
     if (code != std::errc{})
       refuse_volume(place, "the array's shape is too large", {}, "Save it anew.");
-    if (count < 3) shape[count] = length;
-    ++count;
+    shape.push_back(length);
     at = end;
   }
-  if (count != 3) {
-    refuse_volume(place, "the array is no volume", fmt::format("it has {} dimensions", count),
-                  "Save an array of three dimensions, the last of which is x.");
-  }
-  return shape;
+  std::reverse(shape.begin(), shape.end());
+  const auto counted = axes_that_count(shape, place);
+  return {shape[counted[0]], shape[counted[1]], shape[counted[2]]};
 }
 
 }  // namespace
@@ -66,8 +63,52 @@ void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::st
                 "Check dimensions and type.");
 }
 
+std::array<std::size_t, 3> axes_that_count(const std::vector<std::int64_t>& lengths,
+                                           const std::string& place) {
+  std::vector<std::size_t> axes(lengths.size());
+  std::iota(axes.begin(), axes.end(), std::size_t{0});
+  for (std::size_t axis = lengths.size(); axis-- > 0 && axes.size() > 3;) {
+    if (lengths[axis] == 1) axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(axis));
+  }
+  if (axes.size() != 3) {
+    refuse_volume(place, "this is no volume",
+                  fmt::format("it has {} dimensions that are longer than 1", axes.size()),
+                  "Give a volume of three dimensions with one number a voxel.");
+  }
+  return {axes[0], axes[1], axes[2]};
+}
+
+std::optional<double> file_unit(std::string_view name) {
+  struct Unit {
+    std::string_view name;
+    double metres;
+  };
+  constexpr std::array units{Unit{"m", 1},
+                             Unit{"meter", 1},
+                             Unit{"metre", 1},
+                             Unit{"cm", 1e-2},
+                             Unit{"mm", 1e-3},
+                             Unit{"millimeter", 1e-3},
+                             Unit{"um", 1e-6},
+                             Unit{"micron", 1e-6},
+                             Unit{"microns", 1e-6},
+                             Unit{"micrometer", 1e-6},
+                             Unit{"\\u00b5m", 1e-6},
+                             Unit{"\xc2\xb5m", 1e-6},
+                             Unit{"\xce\xbcm", 1e-6},
+                             Unit{"\xb5m", 1e-6},
+                             Unit{"nm", 1e-9},
+                             Unit{"nanometer", 1e-9},
+                             Unit{"inch", 25.4e-3}};
+  const std::string small = lower_case(name);
+  const auto* const found = std::find_if(units.begin(), units.end(),
+                                         [&](const Unit& unit) { return unit.name == small; });
+  if (found == units.end()) return std::nullopt;
+  return found->metres;
+}
+
 VolumeOutline outline_of(const VolumeHeader& header) {
-  VolumeOutline outline{{}, header.type, header.spacing};
+  VolumeOutline outline{{}, header.type, header.spacing, header.remarks};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     outline.dims[axis] = static_cast<std::int32_t>(header.dims[axis]);
   }
@@ -106,9 +147,8 @@ VolumeHeader parse_npy_header(std::string_view bytes, const std::string& name) {
   if (value_after(header, "'fortran_order'", name).starts_with("True")) {
     refuse_volume(name, "the array is in Fortran order", {}, "Save numpy.ascontiguousarray(a).");
   }
-  const auto shape = numpy_shape(value_after(header, "'shape'", name), name);
   VolumeHeader result;
-  result.dims = {shape[2], shape[1], shape[0]};
+  result.dims = numpy_shape(value_after(header, "'shape'", name), name);
   result.type = *type;
   result.big_endian = big;
   result.data_start = start + length;

@@ -74,7 +74,7 @@ std::filesystem::path sidecar_of(const std::filesystem::path& file) {
 std::unique_ptr<VolumeWriter> create_volume(const std::filesystem::path& file,
                                             const VoxelDims& dims, double voxel, VoxelType type) {
   const std::string ending = ending_of(file);
-  const VolumeOutline what{dims, type, voxel};
+  const VolumeOutline what{dims, type, {voxel, 1.0, {}}, {}};
   const auto plain = [&](const std::string& header) {
     return std::make_unique<PlainWriter>(file, type, header);
   };

@@ -90,7 +90,7 @@ TEST_F(PackedVolumes, GiveTheSameBitsAsPlainOnesWholeAndInLayers) {
       EXPECT_TRUE(whole.gray.values == volume.values);
       for (const std::uint64_t memory : {1U, 40U * 70 * 50 * 5}) {
         const Workspace work{folder_, memory, 0};
-        const GrayOnDisk stored = load_volume(request, work);
+        const GrayOnDisk stored = load_volume(request, work).volume;
         EXPECT_TRUE(stored.read(stored.box()).values == volume.values);
       }
       const auto reader = open_volume(request);

@@ -184,7 +184,7 @@ TEST_F(Segmentations, StagesAreTakenUpAgainAndMadeAnewWhenSettingsChange) {
                VoxelType::uint16);
   SegmentSettings settings;
   settings.volume = {folder / "scan.npy", 50e-6, {}};
-  const auto run = [&] { return segment_scan(settings, folder, ScanStage::choose, {}); };
+  const auto run = [&] { return segment_scan(settings, folder, ScanStage::choose, {}, {}); };
   const Segmentation first = run();
   EXPECT_TRUE(first.resumed.empty());
   EXPECT_EQ(first.choice.kept.size(), 2U);
