@@ -112,9 +112,7 @@ TEST(NormalImpact, DashpotsTakeWhatTheMotionLoses) {
           if (law == 0 && shape == &sphere) continue;  // law `linear` has no sphere without nodes
           const Loss loss = head_on(laws[law], *shape, on_plane);
           table.row({static_cast<double>(law), e, on_plane ? 1.0 : 0.0, loss.taken, loss.counted});
-          // Law `hertz` with nodes does not conserve energy exactly by itself.
-          EXPECT_NEAR(loss.counted / loss.before, loss.taken / loss.before,
-                      law == 2 ? 0.015 : 0.006)
+          EXPECT_NEAR(loss.counted / loss.before, loss.taken / loss.before, 0.006)
               << "law " << law << ", e " << e;
         }
       }

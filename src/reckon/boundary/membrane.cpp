@@ -167,7 +167,8 @@ void Membrane::add_contacts(std::uint32_t node, NodeForce& sum) const {
   const auto springs = springs_of(node);
   auto old = springs.begin();
   const auto let_go = [&] {
-    sum.let_go += setup_.contact.stored_shear_energy(old->shear_force, mesh_.area(node));
+    sum.let_go +=
+        ShearSpring{old->shear_force, setup_.contact.shear_stiffness * mesh_.area(node)}.stored();
     ++old;
   };
   for (std::uint32_t t = first_touch_[node]; t < first_touch_[node + 1]; ++t) {

@@ -185,15 +185,16 @@ void MembraneContacts::evaluate_candidate(std::size_t c, const Membrane& membran
   PairContext context{
       .effective_mass = grain.mass, .friction = membrane.setup().friction, .time_step = time_step};
   count_touches(context, found);
+  const double sphere_radius = grain.shape->sphere_radius;
   for (const Touch& touch : found) {
     const double steepness = norm(touch.gradient_world);
     if (!(steepness > 0)) continue;  // a flat spot of the distance has no normal
     const Vec3 normal = touch.gradient_world / steepness;
-    Vec3 spring;
+    ShearSpring spring;  // its stiffness never changes
     double dashpot_before = 0;
     for (const MembraneSpring& old : membrane.springs_of(touch.node)) {
       if (old.grain != grain.id) continue;
-      spring = rotate_between(old.shear_force, old.normal, normal);
+      spring.force = rotate_between(old.shear_force, old.normal, normal);
       dashpot_before = old.dashpot_push;
     }
     const Vec3 velocity = membrane.nodes()[touch.node].velocity - grain.velocity -
@@ -207,7 +208,8 @@ void MembraneContacts::evaluate_candidate(std::size_t c, const Membrane& membran
     sum.first_moment += outer(-node.force, touch.lever_world);
     sum.place +=
         (touch.area * touch.phi / -context.total_volume) * (grain.position + touch.lever_world);
-    sum.deepest = std::max(sum.deepest, -touch.phi);
+    sum.deepest = std::max(
+        sum.deepest, sphere_radius > 0 ? sphere_radius - norm(touch.lever_world) : -touch.phi);
     sum.elastic += node.elastic;
     sum.friction += node.friction;
     sum.dashpot += dashpot_loss(dashpot_before, node, touch, dot(normal, velocity), time_step);

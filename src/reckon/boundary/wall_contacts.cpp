@@ -20,11 +20,20 @@ RigidMotion motion_of(const WallPose& wall, const GrainFrame& grain) {
   return {grain.position, wall.velocity, {}};
 }
 
-WallForce force_of(const DirectedForce& directed, const Mat3& first_moment,
+/// How deep a grain that touches is in a wall [m]: a sphere as deep as it is, whatever its nodes
+/// say; else as deep as its deepest node.
+double overlap_of(const GrainFrame& grain, const Wall& wall, const WallPose& pose,
+                  const DirectedForce& directed) {
+  const double radius = grain.shape->sphere_radius;
+  if (!(radius > 0) || directed.touching == 0) return directed.deepest;
+  return radius - distance(wall, pose, grain.position);
+}
+
+WallForce force_of(const DirectedForce& directed, double overlap, const Mat3& first_moment,
                    const Vec3& wall_velocity, double time_step) {
   return {directed.force,
           directed.moment_master,
-          directed.deepest,
+          overlap,
           directed.elastic,
           directed.friction,
           directed.dashpot,
@@ -116,8 +125,9 @@ void WallContacts::evaluate_plainly(std::size_t c, const GrainFrame& grain, doub
           Mat3 first_moment;
           const DirectedForce directed =
               respond(law, context, grain.position, motion_of(grain), motion_of(pose, grain),
-                      scratch.touches, old_springs, *grain.shape, false, 1, arena, &first_moment);
-          forces_[c] = force_of(directed, first_moment, pose.velocity, time_step);
+                      scratch.touches, old_springs, false, 1, arena, &first_moment);
+          forces_[c] = force_of(directed, overlap_of(grain, wall, pose, directed), first_moment,
+                                pose.velocity, time_step);
         },
         wall.law);
   });
@@ -152,10 +162,11 @@ void WallContacts::answer_waiting(std::span<const GrainFrame> frames, double tim
       std::visit(
           [&](const auto& law) {
             Mat3 first_moment;
-            const DirectedForce directed = scratch.batches[w].sum(
-                waiting.member, law, old_springs, *frames[candidates_[c].slot].shape, false, 1,
-                arena, &first_moment);
-            forces_[c] = force_of(directed, first_moment, poses_[w].velocity, time_step);
+            const DirectedForce directed = scratch.batches[w].sum(waiting.member, law, old_springs,
+                                                                  false, 1, arena, &first_moment);
+            const double overlap =
+                overlap_of(frames[candidates_[c].slot], walls_[w], poses_[w], directed);
+            forces_[c] = force_of(directed, overlap, first_moment, poses_[w].velocity, time_step);
           },
           walls_[w].law);
     });

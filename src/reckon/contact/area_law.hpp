@@ -30,7 +30,7 @@ struct AreaLaw {
 
   [[nodiscard]] NodeResponse respond(const PairContext& context, const Touch& touch,
                                      const Vec3& normal, const Vec3& velocity,
-                                     const Vec3& spring) const {
+                                     const ShearSpring& spring) const {
     const double steepness = norm(touch.gradient_world);
     const double elastic_push = -normal_stiffness * touch.area * touch.phi * steepness;
     const double approach = dot(normal, velocity);
@@ -43,9 +43,10 @@ struct AreaLaw {
         slide(spring, velocity, normal, context.time_step, stiffness, context.friction * push);
     return {.force = push * normal + shear.force,
             .shear_force = shear.force,
+            .shear_stiffness = stiffness,
             .dashpot_push = push - elastic_push,
             .elastic = 0.5 * normal_stiffness * touch.area * touch.phi * touch.phi +
-                       stored_shear_energy(shear.force, touch.area),
+                       ShearSpring{shear.force, stiffness}.stored(),
             .friction = shear.lost};
   }
 
@@ -57,10 +58,6 @@ struct AreaLaw {
 
   [[nodiscard]] double pair_damping(const PairContext& context) const {
     return pair_dashpot(context) + viscosity * context.total_area;
-  }
-
-  [[nodiscard]] double stored_shear_energy(const Vec3& spring, double area) const {
-    return area > 0 ? squared_norm(spring) / (2 * shear_stiffness * area) : 0;
   }
 
  private:

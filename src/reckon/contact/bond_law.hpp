@@ -121,24 +121,33 @@ struct BondLaw {
   return portable::cbrt(0.75 / std::numbers::pi * volume);
 }
 
+/// The nodes of one grain that touch the other, and what each counts.
+struct WeightedTouches {
+  std::span<const Touch> touches;
+  double weight{1};
+};
+
 /// Sets cement between two grains where they touch: at the mean of the touching nodes, weighted
-/// with their areas, along the mean of their normals. `touches` are a's nodes in b, or b's in a.
-/// Nothing where they have no normal.
+/// with their areas, along the mean of their normals. Nothing where they have no normal.
 [[nodiscard]] inline std::optional<Bond> set_bond(const BondLaw& law, const GrainFrame& a,
-                                                  const GrainFrame& b,
-                                                  std::span<const Touch> touches,
-                                                  bool master_is_b) {
-  Vec3 lever;
+                                                  const GrainFrame& b, const WeightedTouches& of_a,
+                                                  const WeightedTouches& of_b) {
+  Vec3 lever;  // from a's centre
   Vec3 normal;
   double area = 0;
-  for (const Touch& touch : touches) {
-    lever += touch.area * touch.lever_world;
-    normal += touch.area * normalized(touch.gradient_world);
-    area += touch.area;
-  }
+  const auto add = [&](const WeightedTouches& side, const Vec3& center, double sign) {
+    for (const Touch& touch : side.touches) {
+      const double counts = side.weight * touch.area;
+      lever += counts * (center + touch.lever_world);
+      normal += (sign * counts) * normalized(touch.gradient_world);
+      area += counts;
+    }
+  };
+  add(of_a, {}, 1);
+  add(of_b, b.position - a.position, -1);
   if (!(area > 0) || !(squared_norm(normal) > 0)) return std::nullopt;
-  const Vec3 place = (master_is_b ? b.position : a.position) + lever / area;
-  const Vec3 axis = normalized(master_is_b ? -normal : normal);
+  const Vec3 place = a.position + lever / area;
+  const Vec3 axis = normalized(normal);
   const double smaller = std::min(a.shape->mass.volume, b.shape->mass.volume);
   return Bond{transposed_times(a.rotation, place - a.position),
               transposed_times(b.rotation, place - b.position),

@@ -19,7 +19,10 @@ using AnyContactLaw = std::variant<LinearLaw, AreaLaw, HertzLaw>;
 enum class MasterRule {
   lower_id,  ///< the grain with the lower id is the master (paper, appendix A)
   smaller,   ///< the grain with the smaller bounding radius; equal radii fall back to lower_id
-  both       ///< both ways, each with half weight
+  /// Both ways. A touching node of either grain stands for the same area A_a A_b / (A_a + A_b) on
+  /// average, with A the mean area of a grain's nodes: the weights are A_b / (A_a + A_b) for a's
+  /// nodes and A_a / (A_a + A_b) for b's, one half each for grains alike.
+  both
 };
 
 /// How touching nodes are found. Both give the same bits.
@@ -32,7 +35,7 @@ enum class ContactEngine {
 struct ContactSettings {
   AnyContactLaw law;
   double friction{0};  ///< Coulomb coefficient
-  MasterRule master{MasterRule::lower_id};
+  MasterRule master{MasterRule::both};
   std::optional<BondLaw> bond{};  ///< of cement, where a stage sets it
 };
 

@@ -3,12 +3,14 @@
 #include "reckon/contact/grain_contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 #include <utility>
 
 #include "reckon/contact/near_skin.hpp"
 #include "reckon/contact/pair_kernel.hpp"
+#include "reckon/contact/sphere_contact.hpp"
 #include "reckon/contact/visit_awake.hpp"
 #include "reckon/parallel/threads.hpp"
 
@@ -38,10 +40,13 @@ void for_each_master(MasterRule rule, const GrainFrame& a, const GrainFrame& b, 
     case MasterRule::smaller:
       body(b.shape->bounding_radius < a.shape->bounding_radius, 1.0);
       break;
-    case MasterRule::both:
-      body(false, 0.5);
-      body(true, 0.5);
+    case MasterRule::both: {
+      if (are_spheres(a, b)) return body(false, 1.0);  // both ways are the same
+      const double sum = a.shape->mean_node_area + b.shape->mean_node_area;
+      body(false, b.shape->mean_node_area / sum);
+      body(true, a.shape->mean_node_area / sum);
       break;
+    }
   }
 }
 
@@ -199,17 +204,20 @@ void GrainContacts::add_bond(std::size_t p, std::span<const GrainFrame> frames) 
 }
 
 void GrainContacts::set_bonds(std::span<const GrainFrame> frames) {
-  std::vector<Touch> touches;
+  std::array<std::vector<Touch>, 2> touches;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     if (forces_[p].touching == 0 || bond_of_pair_[p] != no_bond) continue;
     std::optional<GrainFrame> image;
     const GrainFrame& a = frames[pairs_[p].slot_a];
     const GrainFrame& b = image_of_b(p, frames, image);
-    touches.clear();
-    find_touches(a, b, touches);
-    const bool master_is_b = touches.empty();
-    if (master_is_b) find_touches(b, a, touches);
-    const auto bond = set_bond(*settings_.bond, a, b, touches, master_is_b);
+    std::array<WeightedTouches, 2> sides;
+    for_each_master(settings_.master, a, b, [&](bool master_is_b, double weight) {
+      std::vector<Touch>& found = touches[master_is_b ? 1 : 0];
+      found.clear();
+      find_touches(master_is_b ? b : a, master_is_b ? a : b, found);
+      sides[master_is_b ? 1 : 0] = {found, weight};
+    });
+    const auto bond = set_bond(*settings_.bond, a, b, sides[0], sides[1]);
     if (!bond) continue;
     keep_bond(p, *bond);
     wake_[p] = wake_always;
@@ -233,11 +241,10 @@ void GrainContacts::evaluate_plainly(const Law& law, std::size_t p,
       const GrainFrame& slave = master_is_b ? a : b;
       scratch.touches.clear();
       find_touches(master, slave, scratch.touches);
-      add_directed(
-          pair,
-          respond(law, context, master.position, motion_of(master), motion_of(slave),
-                  scratch.touches, old.of(master_is_b), *master.shape, master_is_b, weight, arena),
-          master_is_b);
+      add_directed(pair,
+                   respond(law, context, master.position, motion_of(master), motion_of(slave),
+                           scratch.touches, old.of(master_is_b), master_is_b, weight, arena),
+                   master_is_b);
     });
   });
   forces_[p] = pair;
@@ -284,11 +291,9 @@ void GrainContacts::answer_waiting(const Law& law, std::span<const GrainFrame> f
     PairForce pair;
     new_springs_of_pair_[p] = store_.append([&](std::vector<NodeSpring>& arena) {
       for_each_master(settings_.master, a, b, [&](bool master_is_b, double weight) {
-        const ShapeView& shape = master_is_b ? *b.shape : *a.shape;
-        add_directed(pair,
-                     scratch.batch.sum(member++, law, old.of(master_is_b), shape, master_is_b,
-                                       weight, arena),
-                     master_is_b);
+        add_directed(
+            pair, scratch.batch.sum(member++, law, old.of(master_is_b), master_is_b, weight, arena),
+            master_is_b);
       });
     });
     forces_[p] = pair;

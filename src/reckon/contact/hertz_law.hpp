@@ -11,21 +11,26 @@
 
 namespace reckon {
 
-/// Hertz and Mindlin's law for grains of any shape. It needs the overlap d and the radius of the
-/// contact a = sqrt(R* d); both follow from what touches, whatever the curvature R*. Two
-/// paraboloids overlap by a lens of area A = 2 pi R* d and of volume V = pi R* d^2 on the master's
-/// surface, so
+/// Hertz and Mindlin's law for grains of any shape. Over the lens in which two paraboloids overlap
+/// by d, the area of the master's surface at each depth is the same, 2 pi R* per depth, so that
 ///
-///   d = 2 V / A,   a = sqrt(A / (2 pi)),   F = 4/3 E* a d,   dF/dd = 2 E* a,   K_t = 8 G* a
+///   S_p = sum of A depth^p = 2 pi R* d^(p+1) / (p+1)
 ///
-/// with A and V the sums over the touching nodes. Spheres get Hertz's 4/3 E* sqrt(R*) d^(3/2) and
-/// Mindlin's tangential stiffness as their nodes grow many. Nodes share the push by their part of
-/// the volume and the tangential stiffness by their part of the area; friction is Coulomb's, node
-/// by node. The dashpot dashpot_factor sqrt(m_eff dF/dd) returns the set restitution at any speed
-/// (Tsuji et al. 1992). No node pulls.
+/// over the touching nodes, whatever the curvature R*. Hertz's energy is a function of one of these
+/// sums, the only one by which it is the square root of a sum over nodes:
 ///
-/// K_t grows and falls with the contact while its spring keeps its force, so a cycle of pressing
-/// and shearing does not conserve energy exactly (Elata and Berryman 1996); the balance shows it.
+///   E = 8/15 E* sqrt(R*) d^(5/2) = C sqrt(S_4),   C = 8/15 E* sqrt(5 / (2 pi))
+///
+/// It is taken as the law, for all shapes: each node is pushed with minus its derivative,
+/// F = 2 C A depth^3 / sqrt(S_4) grad(phi). So frictionless contact conserves energy, and a node
+/// that comes or goes, which has no depth, changes neither force nor stiffness at once. Spheres get
+/// Hertz's 4/3 E* sqrt(R*) d^(3/2) as their nodes grow many. Overlap and radius of the contact are
+///
+///   d = 5/4 S_4 / S_3,   a = F / (4/3 E* d),   dF/dd = 2 E* a,   K_t = 8 G* a
+///
+/// Nodes share the dashpot and Mindlin's tangential stiffness K_t as they share the push; friction
+/// is Coulomb's, node by node. The dashpot dashpot_factor sqrt(m_eff dF/dd) returns the set
+/// restitution at any speed (Tsuji et al. 1992). No node pulls.
 struct HertzLaw {
   double normal_modulus{0};  ///< E* [Pa]
   double shear_modulus{0};   ///< G* [Pa]
@@ -33,24 +38,22 @@ struct HertzLaw {
 
   [[nodiscard]] NodeResponse respond(const PairContext& context, const Touch& touch,
                                      const Vec3& normal, const Vec3& velocity,
-                                     const Vec3& spring) const {
-    const double overlap =
-        context.total_area > 0 ? 2 * context.total_volume / context.total_area : 0;
-    const double radius = contact_radius(context);
-    const double share =
-        context.total_volume > 0 ? -touch.area * touch.phi / context.total_volume : 0;
-    const double elastic_push = 4.0 / 3 * normal_modulus * radius * overlap * share;
+                                     const ShearSpring& spring) const {
+    const double share = context.third_moment > 0 ? depth_cubed(touch) / context.third_moment : 0;
+    const double root = std::sqrt(context.fourth_moment);
+    const double per_depth = root > 0 ? energy_factor * normal_modulus / root : 0;  // [N/m^5]
+    const double elastic_push = 2 * per_depth * depth_cubed(touch) * norm(touch.gradient_world);
     const double approach = dot(normal, velocity);
     const double push = std::max(elastic_push - pair_damping(context) * share * approach, 0.0);
-    const double stiffness =
-        context.total_area > 0 ? 8 * shear_modulus * radius * touch.area / context.total_area : 1;
+    const double stiffness = 8 * shear_modulus * contact_radius(context) * share;
     CoulombSlider shear =
         slide(spring, velocity, normal, context.time_step, stiffness, context.friction * push);
-    const double in_spring = stiffness > 0 ? squared_norm(shear.force) / (2 * stiffness) : 0;
     return {.force = push * normal + shear.force,
             .shear_force = shear.force,
+            .shear_stiffness = stiffness,
             .dashpot_push = push - elastic_push,
-            .elastic = 0.4 * elastic_push * overlap + in_spring,
+            .elastic = -per_depth * depth_cubed(touch) * touch.phi +
+                       ShearSpring{shear.force, stiffness}.stored(),
             .friction = shear.lost};
   }
 
@@ -64,14 +67,19 @@ struct HertzLaw {
     return dashpot_factor * std::sqrt(context.effective_mass * pair_stiffness(context));
   }
 
-  /// A node that lets go has come up to the surface, where friction has left its spring no force.
-  [[nodiscard]] double stored_shear_energy(const Vec3& /*spring*/, double /*area*/) const {
-    return 0;
-  }
-
  private:
+  static constexpr double energy_factor = 8.0 / 15 * 0.8920620580763856;  // C / E*; sqrt(5/(2 pi))
+  static constexpr double radius_factor = 1.2 * energy_factor;
+
+  [[nodiscard]] static double depth_cubed(const Touch& touch) {  // times the area
+    return -touch.area * (touch.phi * touch.phi * touch.phi);
+  }
+  /// What a becomes with F and d put in [m].
   [[nodiscard]] static double contact_radius(const PairContext& context) {
-    return std::sqrt(context.total_area / (2 * std::numbers::pi));
+    const double ratio =
+        context.fourth_moment > 0 ? context.third_moment / context.fourth_moment : 0;
+    return radius_factor * context.third_moment * ratio /
+           (context.fourth_moment > 0 ? std::sqrt(context.fourth_moment) : 1);
   }
 };
 static_assert(ContactLaw<HertzLaw>);

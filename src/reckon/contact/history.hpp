@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "reckon/contact/coulomb.hpp"
 #include "reckon/core/id.hpp"
 #include "reckon/math/vec3.hpp"
 #include "reckon/parallel/threads.hpp"
@@ -14,12 +15,14 @@ namespace reckon {
 
 /// The memory of one touching node: it lives only while the node keeps touching the same partner.
 struct NodeSpring {
-  NodeIndex node{0};        ///< of the master
-  bool master_is_b{false};  ///< in a pair of grains: which of the two the node belongs to
-  Vec3 shear_force;         ///< on the master, world frame [N]
-  Vec3 normal;              ///< unit, out of the slave, world frame
-  double dashpot_push{0};   ///< along the normal [N]
+  NodeIndex node{0};          ///< of the master
+  bool master_is_b{false};    ///< in a pair of grains: which of the two the node belongs to
+  Vec3 shear_force;           ///< on the master, world frame [N]
+  Vec3 normal;                ///< unit, out of the slave, world frame
+  double dashpot_push{0};     ///< along the normal [N]
+  double shear_stiffness{0};  ///< under the law of its step [N/m]
 
+  [[nodiscard]] ShearSpring spring() const { return {shear_force, shear_stiffness}; }
   friend bool operator==(const NodeSpring&, const NodeSpring&) = default;
 };
 

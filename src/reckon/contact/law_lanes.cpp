@@ -33,13 +33,17 @@ __attribute__((flatten)) void answer(const Law& given, double friction, double t
                                 .friction = friction,
                                 .total_area = b.total_area[n],
                                 .total_volume = b.total_volume[n],
+                                .third_moment = b.third_moment[n],
+                                .fourth_moment = b.fourth_moment[n],
                                 .touching = b.touching[n],
                                 .time_step = time_step};
       const Vec3 lever_master = b.lever_master[n];
       const Touch touch{b.node[n], b.phi[n], gradient, lever_master, b.area[n]};
       Vec3 turned = rotate_between(b.old_spring[n], b.old_normal[n], normal);
       const bool is_old = squared_norm(b.old_normal[n]) > 0;  // else zeros, which may have signs
-      const Vec3 spring{is_old ? turned.x : 0, is_old ? turned.y : 0, is_old ? turned.z : 0};
+      const ShearSpring spring{
+          {is_old ? turned.x : 0, is_old ? turned.y : 0, is_old ? turned.z : 0},
+          b.old_shear_stiffness[n]};
       const Vec3 velocity = b.velocity[n];
       NodeResponse node = law.respond(context, touch, normal, velocity, spring);
       b.steepness[n] = steepness;
@@ -51,6 +55,7 @@ __attribute__((flatten)) void answer(const Law& given, double friction, double t
       b.elastic[n] = node.elastic;
       b.friction[n] = node.friction;
       b.dashpot_push[n] = node.dashpot_push;
+      b.shear_stiffness[n] = node.shear_stiffness;
       b.dashpot[n] =
           dashpot_loss(b.old_dashpot_push[n], node, touch, dot(normal, velocity), time_step);
     }

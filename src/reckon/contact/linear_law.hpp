@@ -24,7 +24,7 @@ struct LinearLaw {
 
   [[nodiscard]] NodeResponse respond(const PairContext& context, const Touch& touch,
                                      const Vec3& normal, const Vec3& velocity,
-                                     const Vec3& spring) const {
+                                     const ShearSpring& spring) const {
     const double approach = dot(normal, velocity);
     const double gamma = node_dashpot(context);
     const double push = -normal_stiffness * touch.phi - gamma * approach;
@@ -32,9 +32,10 @@ struct LinearLaw {
                                 context.friction * std::abs(push));
     return {.force = push * normal + shear.force,
             .shear_force = shear.force,
+            .shear_stiffness = shear_stiffness,
             .dashpot_push = -gamma * approach,
             .elastic = 0.5 * normal_stiffness * touch.phi * touch.phi +
-                       stored_shear_energy(shear.force, touch.area),
+                       ShearSpring{shear.force, shear_stiffness}.stored(),
             .friction = shear.lost};
   }
 
@@ -50,10 +51,6 @@ struct LinearLaw {
 
   [[nodiscard]] double pair_damping(const PairContext& context) const {
     return node_dashpot(context) * static_cast<double>(context.touching) * pair_scale(context);
-  }
-
-  [[nodiscard]] double stored_shear_energy(const Vec3& spring, double /*area*/) const {
-    return squared_norm(spring) / (2 * shear_stiffness);
   }
 
  private:

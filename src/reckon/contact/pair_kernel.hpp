@@ -49,9 +49,15 @@ inline void count_touches(PairContext& context, std::span<const Touch> touches) 
   context.touching = static_cast<std::uint32_t>(touches.size());
   context.total_area = 0;
   context.total_volume = 0;
+  context.third_moment = 0;
+  context.fourth_moment = 0;
   for (const Touch& touch : touches) {
+    const double volume = -touch.area * touch.phi;
+    const double squared = touch.phi * touch.phi;
     context.total_area += touch.area;
-    context.total_volume -= touch.area * touch.phi;
+    context.total_volume += volume;
+    context.third_moment += volume * squared;
+    context.fourth_moment -= volume * squared * touch.phi;
   }
 }
 
@@ -78,17 +84,14 @@ template <ContactLaw Law>
 DirectedForce respond(const Law& law, PairContext context, const Vec3& master_center,
                       const RigidMotion& master, const RigidMotion& slave,
                       std::span<const Touch> touches, std::span<const NodeSpring> old_springs,
-                      const ShapeView& master_shape, bool master_is_b, double weight,
-                      std::vector<NodeSpring>& new_springs, Mat3* first_moment = nullptr) {
+                      bool master_is_b, double weight, std::vector<NodeSpring>& new_springs,
+                      Mat3* first_moment = nullptr) {
   DirectedForce sum;
   if (first_moment != nullptr) *first_moment = {Vec3{}, Vec3{}, Vec3{}};
   count_touches(context, touches);
   const Vec3 center_offset = master_center - slave.center;
   auto old = old_springs.begin();
-  const auto let_go = [&](const NodeSpring& spring) {
-    sum.friction +=
-        law.stored_shear_energy(spring.shear_force, master_shape.nodes.area[spring.node]);
-  };
+  const auto let_go = [&](const NodeSpring& gone) { sum.friction += gone.spring().stored(); };
   for (const Touch& touch : touches) {
     const double steepness = norm(touch.gradient_world);
     if (!(steepness > 0)) continue;  // a flat spot of the distance has no normal
@@ -96,10 +99,10 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
     const Vec3 lever_slave = touch.lever_world + center_offset;
     const Vec3 velocity = velocity_at(master, touch.lever_world, slave, lever_slave);
     while (old != old_springs.end() && old->node < touch.node) let_go(*old++);
-    Vec3 spring;
+    ShearSpring spring;
     double dashpot_before = 0;
     if (old != old_springs.end() && old->node == touch.node) {
-      spring = rotate_between(old->shear_force, old->normal, normal);
+      spring = {rotate_between(old->shear_force, old->normal, normal), old->shear_stiffness};
       dashpot_before = old->dashpot_push;
       ++old;
     }
@@ -113,7 +116,8 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
     sum.friction += node.friction;
     sum.dashpot +=
         dashpot_loss(dashpot_before, node, touch, dot(normal, velocity), context.time_step);
-    new_springs.push_back({touch.node, master_is_b, node.shear_force, normal, node.dashpot_push});
+    new_springs.push_back({touch.node, master_is_b, node.shear_force, normal, node.dashpot_push,
+                           node.shear_stiffness});
     ++sum.touching;
   }
   while (old != old_springs.end()) let_go(*old++);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <numbers>
 #include <vector>
 
@@ -20,21 +21,25 @@ namespace reckon {
 inline void add_cap_touches(double overlap, double reduced_radius, const Vec3& normal,
                             const Vec3& lever, std::vector<Touch>& touches) {
   if (!(overlap > 0)) return;
-  const double area = 0.5 * (2 * std::numbers::pi) * reduced_radius * overlap;
-  constexpr double gauss = 0.5 * std::numbers::inv_sqrt3;
-  touches.push_back({0, -(0.5 + gauss) * overlap, normal, lever, area});
-  touches.push_back({1, -(0.5 - gauss) * overlap, normal, lever, area});
+  constexpr double root_of_6 = 2.449489742783178;
+  constexpr std::array depths{(4 - root_of_6) / 10, (4 + root_of_6) / 10, 1.0};
+  constexpr std::array shares{(16 - root_of_6) / 36, (16 + root_of_6) / 36, 1.0 / 9};
+  const double area = (2 * std::numbers::pi) * reduced_radius * overlap;
+  for (NodeIndex n = 0; n < depths.size(); ++n) {
+    touches.push_back({n, -depths[n] * overlap, normal, lever, shares[n] * area});
+  }
 }
 
 /// Two spheres. Appends what stands for all nodes of the master that touch, if any do, and returns
 /// the distance between the surfaces [m].
 ///
 /// For a small overlap d the cap of the master in the slave has the area 2 pi R* d, over which the
-/// depth is spread evenly from 0 to d, with 1/R* = 1/R_a + 1/R_b. Two nodes on the line of centres
-/// that share the area, at the depths of Gauss and Legendre's two points, have its area, volume and
-/// integral of the squared depth: laws `area` and `hertz` get the force pi k_n R* d^2 and
-/// 4/3 E* sqrt(R*) d^(3/2), and the first the energy pi/3 k_n R* d^3, to rounding. The nodes are
-/// where the plane of the circle in which the spheres meet cuts that line.
+/// depth is spread evenly from 0 to d, with 1/R* = 1/R_a + 1/R_b. Three nodes on the line of
+/// centres with the depths and weights of Radau's rule, whose last point is the whole depth d, have
+/// the cap's area and its integrals of the depth up to the fourth power. So laws `area` and `hertz`
+/// get the forces pi k_n R* d^2 and 4/3 E* sqrt(R*) d^(3/2) and their energies to rounding, and the
+/// deepest node is as deep as the spheres overlap. The nodes are where the plane of the circle in
+/// which the spheres meet cuts that line.
 inline double touch_spheres(const GrainFrame& master, const GrainFrame& slave,
                             std::vector<Touch>& touches) {
   const double r = master.shape->sphere_radius;

@@ -4,6 +4,7 @@
 
 #include <concepts>
 
+#include "reckon/contact/coulomb.hpp"
 #include "reckon/core/id.hpp"
 #include "reckon/math/vec3.hpp"
 
@@ -24,17 +25,20 @@ struct PairContext {
   double friction{0};         ///< Coulomb coefficient
   double total_area{0};       ///< of the touching nodes [m^2]
   double total_volume{0};     ///< sum of their areas times depths [m^3]
+  double third_moment{0};     ///< sum of their areas times depths to the third power [m^5]
+  double fourth_moment{0};    ///< and to the fourth [m^6]
   std::uint32_t touching{0};  ///< number of touching nodes
   double time_step{0};        ///< [s]
 };
 
 /// What a law answers for one node.
 struct NodeResponse {
-  Vec3 force;              ///< on the master, world frame [N]
-  Vec3 shear_force;        ///< its frictional part: the new spring [N]
-  double dashpot_push{0};  ///< the dashpot's part along the normal [N]
-  double elastic{0};       ///< energy stored in the node's springs [J]
-  double friction{0};      ///< energy lost to sliding in this step [J]
+  Vec3 force;                 ///< on the master, world frame [N]
+  Vec3 shear_force;           ///< its frictional part: the new spring [N]
+  double shear_stiffness{0};  ///< of that spring [N/m]
+  double dashpot_push{0};     ///< the dashpot's part along the normal [N]
+  double elastic{0};          ///< energy stored in the node's springs [J]
+  double friction{0};         ///< energy lost in this step to sliding, and with a stiffness [J]
 };
 
 /// What the dashpot of a node takes in while the node goes from the step before to this one [J]:
@@ -50,21 +54,19 @@ struct NodeResponse {
 }
 
 /// A contact law: a small value type that turns one touching node into forces.
-/// - `respond`: the node's forces. `normal` is the unit normal out of the slave; `spring` is last
-///   step's shear force already turned to today's normal; `velocity` is that of the master's node
-///   relative to the slave [m/s].
+/// - `respond`: the node's forces. `normal` is the unit normal out of the slave; `spring` is that
+///   of the last step, its force already turned to today's normal; `velocity` is that of the
+///   master's node relative to the slave [m/s].
 /// - `pair_scale`: a factor on everything that a pair of `context.touching` nodes does.
 /// - `pair_stiffness` and `pair_damping`: how much more the pair pushes per depth and per speed of
 ///   approach, all touching nodes together [N/m], [N s/m].
-/// - `stored_shear_energy`: of a spring that is about to be dropped because its node let go [J].
 template <class Law>
 concept ContactLaw = requires(const Law law, const PairContext& context, const Touch& touch,
-                              const Vec3& vector, double area) {
-  { law.respond(context, touch, vector, vector, vector) } -> std::same_as<NodeResponse>;
+                              const Vec3& vector, const ShearSpring& spring) {
+  { law.respond(context, touch, vector, vector, spring) } -> std::same_as<NodeResponse>;
   { law.pair_scale(context) } -> std::same_as<double>;
   { law.pair_stiffness(context) } -> std::same_as<double>;
   { law.pair_damping(context) } -> std::same_as<double>;
-  { law.stored_shear_energy(vector, area) } -> std::same_as<double>;
 };
 
 }  // namespace reckon

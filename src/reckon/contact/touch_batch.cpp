@@ -24,6 +24,8 @@ std::size_t TouchBatch::add(PairContext context, const Vec3& master_center,
     block.effective_mass[lane] = context.effective_mass;
     block.total_area[lane] = context.total_area;
     block.total_volume[lane] = context.total_volume;
+    block.third_moment[lane] = context.third_moment;
+    block.fourth_moment[lane] = context.fourth_moment;
     block.gradient.set(lane, touch.gradient_world);
     block.velocity.set(lane, velocity_at(master, touch.lever_world, slave, lever_slave));
     block.lever_master.set(lane, touch.lever_world);
@@ -33,6 +35,7 @@ std::size_t TouchBatch::add(PairContext context, const Vec3& master_center,
     block.old_spring.set(lane, is_old ? old->shear_force : Vec3{});
     block.old_normal.set(lane, is_old ? old->normal : Vec3{});
     block.old_dashpot_push[lane] = is_old ? old->dashpot_push : 0;
+    block.old_shear_stiffness[lane] = is_old ? old->shear_stiffness : 0;
     block.node[lane] = touch.node;
     block.touching[lane] = context.touching;
     ++nodes_;

@@ -32,15 +32,15 @@ struct alignas(64) TouchLanes {
   };
 
   // Asked: see Touch, PairContext and ContactLaw.
-  Numbers phi, area, effective_mass, total_area, total_volume;
+  Numbers phi, area, effective_mass, total_area, total_volume, third_moment, fourth_moment;
   Vectors gradient, velocity, lever_master, lever_slave;
-  Vectors old_spring, old_normal;  // zero where the node did not touch before
-  Numbers old_dashpot_push;        // likewise
+  Vectors old_spring, old_normal;                 // zero where the node did not touch before
+  Numbers old_dashpot_push, old_shear_stiffness;  // likewise
 
   // Answered.
   Numbers steepness;  // of the distance
   Vectors normal, force, shear_force, moment_master, moment_slave;
-  Numbers dashpot_push, elastic, friction, dashpot;
+  Numbers dashpot_push, shear_stiffness, elastic, friction, dashpot;
 
   std::array<NodeIndex, width> node;
   std::array<std::uint32_t, width> touching;  // nodes of the pair
@@ -73,9 +73,8 @@ class TouchBatch {
   /// What respond() returns; `old_springs` are those that add() got.
   template <ContactLaw Law>
   [[nodiscard]] DirectedForce sum(std::size_t member, const Law& law,
-                                  std::span<const NodeSpring> old_springs,
-                                  const ShapeView& master_shape, bool master_is_b, double weight,
-                                  std::vector<NodeSpring>& new_springs,
+                                  std::span<const NodeSpring> old_springs, bool master_is_b,
+                                  double weight, std::vector<NodeSpring>& new_springs,
                                   Mat3* first_moment = nullptr) const;
 
  private:
@@ -91,17 +90,14 @@ class TouchBatch {
 
 template <ContactLaw Law>
 DirectedForce TouchBatch::sum(std::size_t member, const Law& law,
-                              std::span<const NodeSpring> old_springs,
-                              const ShapeView& master_shape, bool master_is_b, double weight,
-                              std::vector<NodeSpring>& new_springs, Mat3* first_moment) const {
+                              std::span<const NodeSpring> old_springs, bool master_is_b,
+                              double weight, std::vector<NodeSpring>& new_springs,
+                              Mat3* first_moment) const {
   const Member& m = members_[member];
   DirectedForce sum;
   if (first_moment != nullptr) *first_moment = {Vec3{}, Vec3{}, Vec3{}};
   auto old = old_springs.begin();
-  const auto let_go = [&](const NodeSpring& spring) {
-    sum.friction +=
-        law.stored_shear_energy(spring.shear_force, master_shape.nodes.area[spring.node]);
-  };
+  const auto let_go = [&](const NodeSpring& gone) { sum.friction += gone.spring().stored(); };
   for (std::size_t n = m.first; n < m.first + m.context.touching; ++n) {
     const TouchLanes& block = blocks_[n / TouchLanes::width];
     const std::size_t lane = n % TouchLanes::width;
@@ -119,8 +115,8 @@ DirectedForce TouchBatch::sum(std::size_t member, const Law& law,
     sum.elastic += block.elastic[lane];
     sum.friction += block.friction[lane];
     sum.dashpot += block.dashpot[lane];
-    new_springs.push_back(
-        {node, master_is_b, block.shear_force[lane], block.normal[lane], block.dashpot_push[lane]});
+    new_springs.push_back({node, master_is_b, block.shear_force[lane], block.normal[lane],
+                           block.dashpot_push[lane], block.shear_stiffness[lane]});
     ++sum.touching;
   }
   while (old != old_springs.end()) let_go(*old++);

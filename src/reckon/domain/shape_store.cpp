@@ -114,11 +114,11 @@ struct ShapeStore::State {
 void ShapeStore::State::show(const ShapeParts& parts, ShapeView& view) {
   if (parts.band.empty()) {
     view.level_set.values = parts.values;
-    view.nodes = nodes_in(parts.nodes);
+    view.set_nodes(nodes_in(parts.nodes));
   } else {
     view.level_set.band =
         &bands.emplace_back(view.level_set.dims, view.level_set.spacing, parts.band);
-    view.nodes = nodes_in(parts.band_nodes);
+    view.set_nodes(nodes_in(parts.band_nodes));
   }
   view.clusters = parts.clusters;
 }

@@ -50,7 +50,7 @@ void write_column(Hdf5Writer& file, const CheckpointColumn& column);
 ///   /membrane/{foot, ...}, /membrane_node/{position, ...}, /membrane_spring/{node, grain, ...}
 ///   /cell/{edges, lean, ...}               one row where there is a periodic cell
 ///   /pair/{id_a, id_b, first_spring}        one row per touching pair; its springs begin there
-///   /pair_spring/{node, master_is_b, shear_force, normal, dashpot_push}
+///   /pair_spring/{node, master_is_b, shear_force, normal, dashpot_push, shear_stiffness}
 ///   /wall_contact/{grain, wall, first_spring}, /wall_spring/{...}  the same for walls
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 

@@ -11,7 +11,7 @@ namespace reckon {
 
 // 2 added departed grains, 3 driven walls and stages, 4 the membrane, 5 the cell and bonds, 6 the
 // last push of dashpots.
-inline const Hdf5Kind checkpoint_kind{"checkpoint", 6};
+inline const Hdf5Kind checkpoint_kind{"checkpoint", 7};
 
 /// How the parts of the state lie in columns. The same walk fills columns from the state, and the
 /// state from columns: `Columns` offers number, vector, quaternion, id and flag.
@@ -62,6 +62,7 @@ void walk_spring(Columns& columns, Spring& spring) {
   columns.integer("node", spring.node);
   columns.flag("master_is_b", spring.master_is_b);
   walk_memory(columns, spring);
+  if (columns.has_since(7)) columns.number("shear_stiffness", "N/m", spring.shear_stiffness);
 }
 
 template <class Columns, class Departed>

@@ -16,6 +16,7 @@
 #include "reckon/analysis/sample.hpp"
 #include "reckon/core/build_info.hpp"
 #include "reckon/domain/packing.hpp"
+#include "reckon/io/node_spacing.hpp"
 #include "reckon/io/output_schedule.hpp"
 #include "reckon/io/run_files.hpp"
 #include "reckon/io/scene_sharing.hpp"
@@ -365,7 +366,10 @@ RunReport run_scene(const SceneReading& reading, const LoadedScene& scene,
   PreparedScene prepared = prepare(shared, ranks);
   const std::uint64_t steps = options.steps.value_or(prepared.steps);
   std::optional<RunFiles> files;
-  on_root(ranks, [&] { files.emplace(reading, shared, prepared, steps, options, hooks); });
+  on_root(ranks, [&] {
+    files.emplace(reading, shared, prepared, steps, options, hooks);
+    if (const auto coarse = coarse_nodes(shared)) files->note("COARSE: " + *coarse);
+  });
   const bool resumed = ranks.any(files && files->resumed());
   Session session{
       shared.config, std::move(prepared), steps, resumed, files ? &*files : nullptr, options, hooks,

@@ -16,6 +16,7 @@
 #include "reckon/io/history.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/io/json_writer.hpp"
+#include "reckon/io/node_spacing.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
@@ -48,6 +49,7 @@ void describe_assembly(const LoadedScene& scene, const PreparedScene& prepared, 
     plan.smallest_diameter = std::min(plan.smallest_diameter, 2 * shape.bounding_radius);
     plan.largest_diameter = std::max(plan.largest_diameter, 2 * shape.bounding_radius);
   }
+  plan.coarse_nodes = coarse_nodes(scene);
   plan.shapes_in_use = in_use.size();
   for (const ShapeId shape : in_use) {
     plan.memory_shapes += scene.shapes[shape.get()].outline.memory();
@@ -100,7 +102,7 @@ void estimate_output(const LoadedScene& scene, std::uint64_t row_bytes, RunPlan&
   constexpr std::uint64_t contact_line = 125;
   constexpr double triangle = 76;             // with the half point that goes with it
   constexpr std::uint64_t grain_state = 181;  // bytes, as checkpoint.cpp writes them
-  constexpr std::uint64_t spring = 53;
+  constexpr std::uint64_t spring = 69;
   std::uint64_t frame = plan.grains * grain_point;
   if (output.contacts) frame += plan.grains * pairs_per_grain * contact_line;
   if (output.surfaces) {
@@ -205,6 +207,7 @@ std::string plan_text(const RunPlan& plan) {
   line("sizes", fmt::format("bounding spheres of {:.4g} to {:.4g} m across", plan.smallest_diameter,
                             plan.largest_diameter));
   line("nodes", fmt::format("{} on all grains", human_count(plan.nodes)));
+  if (plan.coarse_nodes) line("", "COARSE: " + *plan.coarse_nodes);
   line("walls", fmt::format("{}", plan.walls));
   if (plan.cell_size) {
     line("cell", fmt::format("periodic along {}, {:.4g} x {:.4g} x {:.4g} m, {:.1f} % "
@@ -278,6 +281,7 @@ std::string plan_json(const RunPlan& plan) {
   json.value("shapes", plan.shapes);
   json.value("shapes_in_use", plan.shapes_in_use);
   json.value("nodes", plan.nodes);
+  if (plan.coarse_nodes) json.value("coarse_nodes", *plan.coarse_nodes);
   json.value("walls", plan.walls);
   if (plan.cell_size) {
     json.value("cell_periodic", plan.cell_axes);

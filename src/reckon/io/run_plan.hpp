@@ -24,6 +24,8 @@ struct RunPlan {
   double solid_mass{0};         ///< [kg]
   double density_scaling{1};    ///< see MaterialConfig
 
+  std::optional<std::string> coarse_nodes;  ///< see io/node_spacing.hpp
+
   std::uint64_t membrane_nodes{0};  ///< as its mould stands at the start
   std::optional<Vec3> cell_size;    ///< of a periodic cell [m]
   std::string cell_axes;            ///< along which it is periodic, e.g. "xyz"

@@ -130,8 +130,11 @@ void describe(Visitor& v, ContactConfig& contact) {
   v.rule(!contact.node_cap || contact.law == ContactLawKind::linear, {"node_cap"},
          "`node_cap` belongs to law `linear`; law `area` does not depend on the number of nodes");
   v.choice({.name = "master",
-            .meaning = "Whose nodes are tested against whose level set: the grain with the lower "
-                       "id, the one with the smaller bounding radius, or both with half weight."},
+            .meaning = "Whose nodes are tested against whose level set: those of both grains, each "
+                       "node with the same area on average (half weight where the grains are "
+                       "alike); of the grain with the lower id (the paper's rule: the answer "
+                       "depends on the order of the grains); or of the grain with the smaller "
+                       "bounding radius."},
            contact.master, masters);
 }
 

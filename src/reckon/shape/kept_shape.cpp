@@ -34,7 +34,7 @@ ShapeView KeptShape::view() const {
   if (shape_.storage == ShapeStorage::full) return view;
   view.level_set.band = &band_;
   const auto column = [&](std::size_t c) { return std::span<const float>{columns_[c]}; };
-  view.nodes = {column(0), column(1), column(2), column(3)};
+  view.set_nodes({column(0), column(1), column(2), column(3)});
   view.clusters = clusters_;
   return view;
 }

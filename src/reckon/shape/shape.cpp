@@ -98,12 +98,20 @@ ShapeView::ShapeView(const ShapeOutline& outline)
 
 ShapeView::ShapeView(const Shape& shape)
     : level_set{shape.level_set},
-      nodes{std::span{shape.nodes.x}, std::span{shape.nodes.y}, std::span{shape.nodes.z},
-            std::span{shape.nodes.area}},
       clusters{shape.clusters},
       mass{shape.mass},
       bounding_radius{shape.bounding_radius},
       lipschitz{shape.lipschitz},
-      sphere_radius{shape.sphere_radius} {}
+      sphere_radius{shape.sphere_radius} {
+  set_nodes({std::span{shape.nodes.x}, std::span{shape.nodes.y}, std::span{shape.nodes.z},
+             std::span{shape.nodes.area}});
+}
+
+void ShapeView::set_nodes(const SurfaceNodesView& these) {
+  nodes = these;
+  double sum = 0;
+  for (std::size_t n = 0; n < nodes.size(); ++n) sum += nodes.area[n];
+  mean_node_area = nodes.size() > 0 ? sum / static_cast<double>(nodes.size()) : 0;
+}
 
 }  // namespace reckon

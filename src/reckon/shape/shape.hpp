@@ -152,12 +152,14 @@ struct ShapeView {
   MassProperties mass;
   double bounding_radius{0};
   double lipschitz{1};
-  double sphere_radius{0};  ///< see Shape [m]
+  double sphere_radius{0};   ///< see Shape [m]
+  double mean_node_area{0};  ///< of the nodes that are there [m^2]
 
   ShapeView() = default;
   ShapeView(const Shape& shape);  // NOLINT(google-explicit-constructor): a view, like span
   /// Without grid and nodes.
   explicit ShapeView(const ShapeOutline& outline);
+  void set_nodes(const SurfaceNodesView& these);
 };
 
 /// All shapes of a run; a ShapeId is a place in it.

@@ -45,7 +45,7 @@ struct ContactConfig {
   double viscosity{0};                ///< area: a further normal dashpot per area [N s/m^3], >= 0
   std::optional<std::uint32_t>
       node_cap;  ///< linear: pairs with more touching nodes are scaled by cap/n
-  MasterRule master{MasterRule::lower_id};
+  MasterRule master{MasterRule::both};
 };
 
 /// Cement between grains; see contact/bond_law.hpp.

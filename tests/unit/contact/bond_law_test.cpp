@@ -34,7 +34,7 @@ class TwoBondedGrains : public ::testing::Test {
     const Touch touch{.gradient_world = {-1.1, 0, 0},  // out of b, not normalised
                       .lever_world = place_ - a_.position,
                       .area = 0.01};
-    bond_ = *set_bond(law_, a, b, {&touch, 1}, false);
+    bond_ = *set_bond(law_, a, b, {{&touch, 1}}, {});
   }
   GrainFrame frame(GrainId id, const Pose& pose) const {
     return frame_of(id, view_, pose.position, pose.orientation, {}, {}, 2000);
@@ -189,12 +189,13 @@ TEST_F(TwoBondedGrains, AreSetWhereTheirNodesTouchWhoeverIsTheMaster) {
   std::vector<Touch> of_b;
   touch_spheres(a, b, of_a);
   touch_spheres(b, a, of_b);
-  for (const Bond& bond : {*set_bond(law_, a, b, of_a, false), *set_bond(law_, a, b, of_b, true)}) {
+  for (const Bond& bond : {*set_bond(law_, a, b, {of_a}, {}), *set_bond(law_, a, b, {}, {of_b}),
+                           *set_bond(law_, a, b, {of_a, 0.3}, {of_b, 0.7})}) {
     EXPECT_LT(norm(a.rotation * bond.arm_a - Vec3{0, 0.95, 0}), 1e-15);
     EXPECT_LT(norm(b.rotation * bond.arm_b - Vec3{0, -0.95, 0}), 1e-15);
     EXPECT_LT(norm(a.rotation * bond.axis_a - Vec3{0, -1, 0}), 1e-15);
   }
-  EXPECT_FALSE(set_bond(law_, a, b, {}, false));
+  EXPECT_FALSE(set_bond(law_, a, b, {}, {}));
 }
 
 }  // namespace

@@ -17,20 +17,23 @@ const Vec3 up{0, 0, 1};
 constexpr double radius = 0.3;    // R* [m]
 constexpr double overlap = 0.01;  // [m]
 
-/// The lens that a paraboloid of curvature R* cuts into a plane.
-PairContext lens(double friction = 0) {
+/// The lens of this depth that a paraboloid of curvature R* cuts into a plane.
+PairContext lens(double friction = 0, double depth = overlap) {
+  const double area_per_depth = 2 * std::numbers::pi * radius;
   return {.effective_mass = 0.25,
           .friction = friction,
-          .total_area = 2 * std::numbers::pi * radius * overlap,
-          .total_volume = std::numbers::pi * radius * overlap * overlap,
+          .total_area = area_per_depth * depth,
+          .total_volume = area_per_depth * std::pow(depth, 2) / 2,
+          .third_moment = area_per_depth * std::pow(depth, 4) / 4,
+          .fourth_moment = area_per_depth * std::pow(depth, 5) / 5,
           .touching = 1,
           .time_step = 1e-5};
 }
 /// One node that stands for the whole lens.
 Touch whole_lens(const PairContext& context) {
-  return {.phi = -context.total_volume / context.total_area,
-          .gradient_world = up,
-          .area = context.total_area};
+  const double depth = context.fourth_moment / context.third_moment;
+  return {
+      .phi = -depth, .gradient_world = up, .area = context.third_moment / (depth * depth * depth)};
 }
 
 TEST(HertzLaw, GivesHertzsForceEnergyAndStiffness) {
@@ -75,9 +78,8 @@ TEST(HertzLaw, ReturnsTheSetRestitutionAtAnySpeed) {
       double velocity = speed;  // inward
       do {
         depth = std::max(depth + dt * velocity, 0.0);
-        PairContext context = lens();
-        context.total_area = 2 * std::numbers::pi * radius * depth;
-        context.total_volume = std::numbers::pi * radius * depth * depth;
+        if (depth == 0) break;
+        const PairContext context = lens(0, depth);
         velocity -= dt / mass *
                     law.respond(context, whole_lens(context), up, {0, 0, -velocity}, {}).force.z;
       } while (depth > 0 && velocity > -2 * speed);

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "reckon/contact/area_law.hpp"
+#include "reckon/contact/hertz_law.hpp"
 #include "reckon/contact/linear_law.hpp"
+#include "reckon/contact/pair_kernel.hpp"
 
 namespace reckon {
 namespace {
@@ -26,13 +30,13 @@ TEST(Coulomb, SpringStretchesAgainstTheMotionUntilItSlides) {
   const Vec3 velocity{2, 0, 5};  // the normal part must not stretch it
   Vec3 spring;
   for (int n = 0; n < 10; ++n) {
-    const CoulombSlider s = slide(spring, velocity, up, dt, 1e4, 1e9);
+    const CoulombSlider s = slide({spring, 1e4}, velocity, up, dt, 1e4, 1e9);
     spring = s.force;
     EXPECT_EQ(s.lost, 0);
   }
   EXPECT_NEAR(spring.x, -1e4 * 2 * 10 * dt, 1e-12);
   EXPECT_EQ(spring.z, 0);
-  const CoulombSlider capped = slide(spring, velocity, up, dt, 1e4, 0.5);
+  const CoulombSlider capped = slide({spring, 1e4}, velocity, up, dt, 1e4, 0.5);
   EXPECT_NEAR(norm(capped.force), 0.5, 1e-15);
 }
 
@@ -40,7 +44,7 @@ TEST(Coulomb, SteadySlidingLosesForceTimesDistance) {
   Vec3 spring{-3, 0, 0};
   double lost = 0;
   for (int n = 0; n < 1000; ++n) {
-    const CoulombSlider s = slide(spring, {2, 0, 0}, up, dt, 1e6, 3);
+    const CoulombSlider s = slide({spring, 1e6}, {2, 0, 0}, up, dt, 1e6, 3);
     spring = s.force;
     lost += s.lost;
   }
@@ -51,6 +55,69 @@ TEST(Coulomb, NothingIsLostWithoutFriction) {
   const CoulombSlider s = slide({}, {2, 1, 0}, up, dt, 1e6, 0);
   EXPECT_EQ(s.force, Vec3{});
   EXPECT_EQ(s.lost, 0);
+}
+
+/// A spring under a stiffness that grows and shrinks while its end goes to and fro: what is put in
+/// is what it stores and what is lost, and nothing is ever won.
+TEST(Coulomb, ChangingStiffnessKeepsTheBalance) {
+  ShearSpring spring{{}, 1e5};
+  double lost = 0;
+  double work = 0;
+  double slid = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const double stiffness = 1e5 * (1.1 + std::sin(0.003 * n));
+    const Vec3 velocity{std::cos(0.005 * n), 0.3 * std::sin(0.011 * n), 0};
+    const CoulombSlider s = slide(spring, velocity, up, dt, stiffness, 150);
+    work -= dot(0.5 * (spring.force + s.force), velocity * dt);
+    EXPECT_GE(s.lost, -1e-6);
+    if (norm(s.force) > 149.999) slid += s.lost;
+    lost += s.lost;
+    spring = {s.force, stiffness};
+  }
+  EXPECT_GT(slid, 0);
+  EXPECT_GT(lost, 1.05 * slid);
+  EXPECT_NEAR(work, lost + spring.stored(), 1e-12 * work);
+}
+
+TEST(Coulomb, ShrinkingContactKeepsItsStretchAndAGrowingOneItsForce) {
+  const CoulombSlider less = slide({{3, 0, 0}, 2e4}, {}, up, dt, 1e4, 10);
+  EXPECT_EQ(less.force, (Vec3{1.5, 0, 0}));
+  EXPECT_DOUBLE_EQ(less.lost, 9 / 4e4 - 2.25 / 2e4);
+  const CoulombSlider more = slide({{3, 0, 0}, 1e4}, {}, up, dt, 2e4, 10);
+  EXPECT_EQ(more.force, (Vec3{3, 0, 0}));
+  EXPECT_DOUBLE_EQ(more.lost, 9 / 2e4 - 9 / 4e4);
+  const CoulombSlider unknown = slide({{3, 0, 0}, 0}, {}, up, dt, 2e4, 10);
+  EXPECT_EQ(unknown.force, (Vec3{3, 0, 0}));
+  EXPECT_EQ(unknown.lost, 0);
+}
+
+/// Nodes that lie at random, some still outside: minus the derivative of the energy is the force.
+TEST(HertzLaw, PushIsMinusTheDerivativeOfTheEnergy) {
+  const HertzLaw law = hertz_law(1e8, 0.2, false, 0);
+  const auto energy_and_push = [&](double shift) {
+    std::vector<Touch> touches;
+    for (int n = 0; n < 12; ++n) {
+      const double phi = 1e-4 * (std::sin(7.0 * n) - 0.2) - shift;
+      if (phi < 0) {
+        touches.push_back({static_cast<NodeIndex>(n), phi, up, {}, 1e-6 * (1.5 + std::cos(n))});
+      }
+    }
+    PairContext pair = context(0);
+    count_touches(pair, touches);
+    double energy = 0;
+    double push = 0;
+    for (const Touch& touch : touches) {
+      const NodeResponse node = law.respond(pair, touch, up, {}, {});
+      energy += node.elastic;
+      push += node.force.z;
+    }
+    return std::pair{energy, push};
+  };
+  double work = 0;
+  const double step = 1e-8;
+  for (int n = 0; n < 20000; ++n) work += energy_and_push((n + 0.5) * step).second * step;
+  const double stored = energy_and_push(20000 * step).first - energy_and_push(0).first;
+  EXPECT_NEAR(work, stored, 1e-7 * stored);
 }
 
 TEST(LinearLaw, ForceIsStiffnessTimesDepthAlongTheUnitNormal) {
@@ -80,7 +147,7 @@ TEST(AreaLaw, ForceFollowsAreaDepthAndTheGradientAsItIs) {
 TEST(AreaLaw, DashpotNeverPulls) {
   const AreaLaw law{1e8, 5e7, 1.5};
   const Touch touch{.node = 0, .phi = -1e-6, .gradient_world = up, .area = 0.005};
-  const NodeResponse leaving = law.respond(context(0.5), touch, up, {0, 0, 50}, {1, 0, 0});
+  const NodeResponse leaving = law.respond(context(0.5), touch, up, {0, 0, 50}, {{1, 0, 0}, 1e5});
   EXPECT_EQ(leaving.force, Vec3{});  // no push, hence no friction either
   const NodeResponse coming = law.respond(context(0), touch, up, {0, 0, -50}, {});
   EXPECT_GT(coming.force.z, 1e8 * 0.005 * 1e-6);

@@ -44,7 +44,7 @@ Checkpoint awkward_checkpoint() {
     checkpoint.state.grains.push_back(grain);
   }
   const auto spring = [&](std::uint32_t node, bool b) {
-    return NodeSpring{node, b, vector(), vector(), vector().x};
+    return NodeSpring{node, b, vector(), vector(), vector().x, vector().z};
   };
   checkpoint.state.pair_springs = {
       {GrainId{0}, GrainId{1}, {spring(3, false), spring(9, false), spring(2, true)}},
@@ -96,7 +96,7 @@ TEST_F(CheckpointTest, ReadsBackTheSameBits) {
   EXPECT_EQ(read.acceleration_digest, written.acceleration_digest);
 }
 
-TEST_F(CheckpointTest, OneOfVersion5LacksOnlyTheLastPushOfDashpots) {
+TEST_F(CheckpointTest, OneOfVersion5LacksOnlyTheLastPushOfDashpotsAndTheStiffnessOfSprings) {
   Checkpoint checkpoint = awkward_checkpoint();
   {
     Hdf5Writer file{path_, Hdf5Kind{"checkpoint", 5}};
@@ -107,16 +107,16 @@ TEST_F(CheckpointTest, OneOfVersion5LacksOnlyTheLastPushOfDashpots) {
     file.write<std::uint64_t>("/run/acceleration_digest", {42}, {1}, "1");
     file.write<std::uint8_t>("/run/scene", {'x'}, {1}, "UTF-8");
     for (const CheckpointColumn& column : to_columns(checkpoint.state)) {
-      if (!column.name.ends_with("/dashpot_push")) write_column(file, column);
+      if (column.name.ends_with("/dashpot_push")) continue;
+      if (!column.name.ends_with("/shear_stiffness")) write_column(file, column);
     }
     file.finish();
   }
-  for (PairSprings& pair : checkpoint.state.pair_springs) {
-    for (NodeSpring& spring : pair.springs) spring.dashpot_push = 0;
-  }
-  for (WallSprings& contact : checkpoint.state.wall_springs) {
-    for (NodeSpring& spring : contact.springs) spring.dashpot_push = 0;
-  }
+  const auto forget = [](std::vector<NodeSpring>& springs) {
+    for (NodeSpring& spring : springs) spring.dashpot_push = spring.shear_stiffness = 0;
+  };
+  for (PairSprings& pair : checkpoint.state.pair_springs) forget(pair.springs);
+  for (WallSprings& contact : checkpoint.state.wall_springs) forget(contact.springs);
   for (MembraneSpring& spring : checkpoint.state.membrane.springs) spring.dashpot_push = 0;
   EXPECT_EQ(first_difference(checkpoint.state, read_checkpoint(path_).state), std::nullopt);
 }

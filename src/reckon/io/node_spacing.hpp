@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "reckon/simulation/setup.hpp"
+
+namespace reckon {
+
+/// Where nodes lie too far apart for what they touch, so that it can sink in between them and no
+/// force answers: which shapes, how far, and what to do; nothing where all is well. Looked at are
+/// the pairs of grains that `contact.master` allows, and walls.
+///
+///     master's nodes   o           o           o        spacing h = sqrt(area / nodes)
+///                          .---.
+///                         (     )  slave, as thin as t: sinks in by about 0.4 h^2/t
+///                          '---'
+[[nodiscard]] std::optional<std::string> coarse_nodes(const LoadedScene& scene);
+
+}  // namespace reckon
