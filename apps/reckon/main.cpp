@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <new>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -23,7 +23,9 @@
 #include "paraview_command.hpp"
 #include "reckon/core/build_info.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/core/failure_text.hpp"
 #include "reckon/core/hdf5_handle.hpp"
+#include "reckon/core/utf8.hpp"
 #include "reckon/io/nearest_name.hpp"
 #include "reckon/io/run.hpp"
 #include "reckon/parallel/communicator.hpp"
@@ -96,7 +98,9 @@ bool started_by_launcher() {
 // NOLINTEND(concurrency-mt-unsafe)
 
 int complain(const Communicator& ranks, const std::string& problem, int code) {
-  if (ranks.is_root()) std::fputs(fmt::format("reckon: error: {}\n", problem).c_str(), stderr);
+  if (ranks.is_root()) {
+    std::fputs(fmt::format("reckon: error: {}\n", printable(problem)).c_str(), stderr);
+  }
   return code;
 }
 
@@ -105,7 +109,8 @@ int complain(const Communicator& ranks, const std::string& problem, int code) {
 int end_failed(const Communicator& ranks, const std::string& problem, int code) {
   constexpr double patience = 3;  // [s]
   if (ranks.meet(patience)) return complain(ranks, problem, code);
-  fmt::print(stderr, "reckon: error on rank {} of {}: {}\n", ranks.rank(), ranks.size(), problem);
+  fmt::print(stderr, "reckon: error on rank {} of {}: {}\n", ranks.rank(), ranks.size(),
+             printable(problem));
   std::fflush(nullptr);
   ranks.abort(code);
 }
@@ -154,17 +159,13 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
     return complain(ranks, fmt::format("{}\nSee: {}", error.what(), help_of(app)), input_at_fault);
   } catch (const RunFailure& error) {
     return end_failed(ranks, error.what(), run_failed);
-  } catch (const Error& error) {
-    return end_failed(ranks, error.what(), input_at_fault);
-  } catch (const std::bad_alloc&) {
-    return end_failed(ranks, "not enough memory for this scene", run_failed);
-  } catch (const std::system_error& error) {  // of folders, mostly, which say which it is
-    const bool full = error.code() == std::errc::no_space_on_device;
-    return end_failed(
-        ranks, fmt::format("{}. Check the folder's permissions and the free space.", error.what()),
-        full ? run_failed : input_at_fault);
   } catch (const std::exception& error) {
-    return end_failed(ranks, fmt::format("{}. This is a fault of reckon itself", error.what()),
+    const std::string problem = Error{failure_text(error)}.what();
+    if (is_failure_of_machine(error)) return end_failed(ranks, problem, run_failed);
+    const bool is_of_input = dynamic_cast<const Error*>(&error) != nullptr ||
+                             dynamic_cast<const std::system_error*>(&error) != nullptr;
+    if (is_of_input) return end_failed(ranks, problem, input_at_fault);
+    return end_failed(ranks, fmt::format("{}. This is a fault of reckon itself", problem),
                       internal_error);
   }
 }
@@ -176,6 +177,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
 int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   using namespace reckon::app;
   open_missing_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f` then fails, and says so
   restart_with_settings(argv);
   reckon::skip_hdf5_cleanup_at_exit();
   if (!started_by_launcher()) return end_output(run_command_line(argc, argv, {}));

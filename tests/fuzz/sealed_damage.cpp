@@ -157,7 +157,7 @@ std::string damaged_sealed_file(std::string_view input, RandomStream& random,
   std::ofstream{path, std::ios::binary} << input;
   injure(path, random);
   const auto [kind, version] = kind_and_version(input);
-  write_seal(path, kind, version);
+  write_seal(path, kind, version, path);
   return read_file(path);
 }
 

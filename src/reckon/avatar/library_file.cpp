@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/avatar/library_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "reckon/core/exact_sum.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/hdf5_file.hpp"
+#include "reckon/core/write_failure.hpp"
 
 namespace reckon {
 namespace {
@@ -252,16 +254,20 @@ struct LibraryWriter::Impl {
       : storage{stored_as},
         file{path, library_kind},
         arrays{path.string() + ".arrays"},
-        spool{arrays.temporary(),
-              std::ios::binary | std::ios::in | std::ios::out | std::ios::trunc} {
-    spool.exceptions(std::ios::badbit | std::ios::failbit);
-  }
+        spool{arrays.temporary(), O_RDWR | O_CREAT | O_TRUNC, path} {}
 
   template <class Number, class Given>
   void append(const std::vector<Given>& numbers) {
     const std::vector<Number> kept(numbers.begin(), numbers.end());
-    spool.write(reinterpret_cast<const char*>(kept.data()),
-                static_cast<std::streamsize>(kept.size() * sizeof(Number)));
+    const std::size_t size = kept.size() * sizeof(Number);
+    spool.write(spooled, {reinterpret_cast<const char*>(kept.data()), size});
+    spooled += size;
+  }
+  template <class Number>
+  void take_back(std::uint64_t from, std::vector<Number>& numbers) const {
+    const std::span<char> bytes{reinterpret_cast<char*>(numbers.data()),
+                                numbers.size() * sizeof(Number)};
+    if (spool.read(from, bytes) != bytes.size()) throw_write_failure(file.target(), 0);
   }
   template <class Number>
   void append_nodes(const SurfaceNodes& nodes) {
@@ -275,7 +281,8 @@ struct LibraryWriter::Impl {
   ShapeStorage storage;
   Hdf5Writer file;
   PendingFile arrays;  // all shapes' grids and nodes, one after the other; never committed
-  std::fstream spool;
+  OpenFile spool;
+  std::uint64_t spooled{0};                  // [bytes]
   std::vector<std::uint64_t> first_byte{0};  // in the spool, by shape
   ShapeLibrary table;
   std::set<std::string> names;
@@ -290,9 +297,7 @@ void LibraryWriter::Impl::write_grids(const char* name, std::string_view unit) {
   std::vector<Number> values;
   for (std::size_t s = 0; s < table.size(); ++s) {
     values.resize(first_value[s + 1] - first_value[s]);
-    spool.seekg(static_cast<std::streamoff>(first_byte[s]));
-    spool.read(reinterpret_cast<char*>(values.data()),
-               static_cast<std::streamsize>(values.size() * sizeof(Number)));
+    take_back(first_byte[s], values);
     file.write_rows<Number>(name, first_value[s], values);
   }
 }
@@ -306,9 +311,7 @@ void LibraryWriter::Impl::write_nodes() {
     for (std::size_t s = 0; s < table.size(); ++s) {
       values.resize(first_node[s + 1] - first_node[s]);
       const std::uint64_t column = values.size() * sizeof(Number);
-      spool.seekg(
-          static_cast<std::streamoff>(first_byte[s + 1] - (node_fields.size() - field) * column));
-      spool.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(column));
+      take_back(first_byte[s + 1] - (node_fields.size() - field) * column, values);
       file.write_rows<Number>(node_fields[field].name, first_node[s], values);
     }
   }
@@ -329,24 +332,17 @@ void LibraryWriter::add(const Shape& shape) {
                  .reason = "a library holds whole grids or bands",
                  .fix = "Make all shapes with the same storage."}};
   }
-  try {
-    if (own.storage == ShapeStorage::band) {
-      const auto words = encode_band(shape.level_set);
-      own.append<LevelSetBand::Word>(words);
-      own.append_nodes<float>(shape.nodes);
-      own.first_value.push_back(own.first_value.back() + words.size());
-    } else {
-      own.append<float>(shape.level_set.values);
-      own.append_nodes<double>(shape.nodes);
-      own.first_value.push_back(own.first_value.back() + shape.level_set.values.size());
-    }
-    own.first_byte.push_back(static_cast<std::uint64_t>(own.spool.tellp()));
-  } catch (const std::ios::failure&) {
-    throw Error{{.place = own.file.target().string(),
-                 .problem = "cannot be written",
-                 .reason = "its arrays do not fit beside it: is the disk full?",
-                 .fix = "Make room, or write elsewhere."}};
+  if (own.storage == ShapeStorage::band) {
+    const auto words = encode_band(shape.level_set);
+    own.append<LevelSetBand::Word>(words);
+    own.append_nodes<float>(shape.nodes);
+    own.first_value.push_back(own.first_value.back() + words.size());
+  } else {
+    own.append<float>(shape.level_set.values);
+    own.append_nodes<double>(shape.nodes);
+    own.first_value.push_back(own.first_value.back() + shape.level_set.values.size());
   }
+  own.first_byte.push_back(own.spooled);
   own.first_node.push_back(own.first_node.back() + shape.nodes.size());
   own.table.push_back(table_row(shape));
   own.digests.push_back(shape_digest(shape));

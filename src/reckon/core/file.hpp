@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,7 +28,8 @@ class PendingFile {
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
   [[nodiscard]] const std::filesystem::path& target() const { return target_; }
 
-  /// Flushes the temporary file to disk and gives it the target's name, replacing what was there.
+  /// Flushes the temporary file to disk, gives it the target's name, replacing what was there, and
+  /// flushes the folder. Throws MachineFailure when the disk refuses.
   void commit();
 
  private:
@@ -34,11 +38,45 @@ class PendingFile {
   bool committed_{false};
 };
 
+/// The name of the file for which a PendingFile made this temporary one (NAME.PROCESS-NUMBER.tmp);
+/// nothing for other files.
+[[nodiscard]] std::optional<std::string_view> target_of_temporary(std::string_view name);
+
+/// An open file. Each call does all that it is asked for, or throws: MachineFailure when the disk
+/// refuses to write, Error when it refuses to read. It closes itself.
+class OpenFile {
+ public:
+  /// `flags` are those of open(); a file that is made may be read and written by all, as umask
+  /// allows. `named` is the name for messages where it is another one.
+  OpenFile(std::filesystem::path path, int flags, std::filesystem::path named = {});
+  ~OpenFile();
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  [[nodiscard]] std::uint64_t size() const;  ///< [bytes]
+  /// As many bytes from `offset` on as `bytes` has room for, less at the end of the file.
+  [[nodiscard]] std::size_t read(std::uint64_t offset, std::span<char> bytes) const;
+  void write(std::uint64_t offset, std::string_view bytes) const;
+  /// Returns once all has reached the disk.
+  void flush() const;
+  /// Says whether the system took it all, which the destructor cannot.
+  void close();
+
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
+ private:
+  [[noreturn]] void fail_to_write(int error_number) const;
+
+  std::filesystem::path named_;
+  int descriptor_{-1};
+};
+
 /// Writes `parts` one after the other as the whole content of `target`, by way of a PendingFile.
 void write_file(const std::filesystem::path& target, std::span<const std::string_view> parts);
 void write_file(const std::filesystem::path& target, std::string_view content);
 
-/// The whole content of a file, as bytes. Throws Error when it cannot be read.
+/// The whole content of a file or a pipe, as bytes. Throws Error when it cannot be read, and for a
+/// device, which may have no end.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
 }  // namespace reckon

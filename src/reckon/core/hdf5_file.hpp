@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <concepts>
 #include <cstdint>
 #include <filesystem>
-
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "reckon/core/file.hpp"
+#include "reckon/core/hdf5_record.hpp"
+#include "reckon/core/hdf5_types.hpp"
 
 namespace reckon {
 
@@ -26,48 +26,16 @@ namespace reckon {
 /// The seal is checked before the HDF5 library sees the file, because that library does not survive
 /// every damaged file.
 
-/// The number types that datasets may have.
-enum class Hdf5Number : std::uint8_t {
-  float32,
-  float64,
-  int32,
-  uint32,
-  int64,
-  uint64,
-  uint8,
-  uint16
-};
-
-template <class Number>
-concept Hdf5Storable = std::same_as<Number, float> || std::same_as<Number, double> ||
-    std::same_as<Number, std::int32_t> || std::same_as<Number, std::uint32_t> ||
-    std::same_as<Number, std::int64_t> || std::same_as<Number, std::uint64_t> ||
-    std::same_as<Number, std::uint8_t> || std::same_as<Number, std::uint16_t>;
-
-template <Hdf5Storable Number>
-[[nodiscard]] constexpr Hdf5Number hdf5_number() {
-  if constexpr (std::same_as<Number, float>) return Hdf5Number::float32;
-  if constexpr (std::same_as<Number, double>) return Hdf5Number::float64;
-  if constexpr (std::same_as<Number, std::int32_t>) return Hdf5Number::int32;
-  if constexpr (std::same_as<Number, std::uint32_t>) return Hdf5Number::uint32;
-  if constexpr (std::same_as<Number, std::int64_t>) return Hdf5Number::int64;
-  if constexpr (std::same_as<Number, std::uint64_t>) return Hdf5Number::uint64;
-  if constexpr (std::same_as<Number, std::uint16_t>) return Hdf5Number::uint16;
-  return Hdf5Number::uint8;
-}
-
-/// Lengths of a dataset along each dimension; the first counts "rows".
-using Hdf5Extents = std::vector<std::uint64_t>;
-
 /// What a sealed file says it is.
 struct Hdf5Kind {
   std::string name;          ///< one line of text, e.g. "shape library"
   std::uint32_t version{1};  ///< of the layout
 };
 
-/// Writes a sealed HDF5 file under a temporary name; finish() seals it and puts it in place. Every
-/// failure throws Error with the file's name. Dataset names are paths ("/grid/values"); missing
-/// groups are made.
+/// Writes a sealed HDF5 file under a temporary name; finish() reads it back, compares it with what
+/// was to be written, seals it and puts it in place. Every failure throws Error with the file's
+/// name, MachineFailure where the disk is the reason. Dataset names are paths ("/grid/values");
+/// missing groups are made.
 class Hdf5Writer {
  public:
   Hdf5Writer(const std::filesystem::path& target, Hdf5Kind kind);
@@ -96,6 +64,7 @@ class Hdf5Writer {
   /// A note on the whole file, as a text attribute of the root group.
   void write_note(const std::string& name, const std::string& text);
 
+  /// Nothing under the file's own name changes unless every byte has arrived.
   void finish();
 
   [[nodiscard]] const std::filesystem::path& target() const { return pending_.target(); }
@@ -103,9 +72,13 @@ class Hdf5Writer {
  private:
   void write_raw(const std::string& name, std::uint64_t first, Hdf5Number type, const void* values,
                  std::uint64_t count);
+  void write_text_attribute(std::int64_t object, const std::string& object_name,
+                            const std::string& name, std::string_view text);
+  void require(bool written, const std::string& what) const;
 
   PendingFile pending_;
   Hdf5Kind kind_;
+  Hdf5Record record_;
   std::int64_t file_{-1};  // HDF5's handle
 };
 
@@ -123,13 +96,14 @@ class Hdf5Reader {
   [[nodiscard]] std::uint32_t version() const { return version_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] bool has(const std::string& name) const;
+  /// Throws Error also when they are more than the file can hold.
   [[nodiscard]] Hdf5Extents extents(const std::string& name) const;
 
   /// A whole dataset, which must have these extents.
   template <Hdf5Storable Number>
   [[nodiscard]] std::vector<Number> read(const std::string& name,
                                          const Hdf5Extents& expected) const {
-    std::vector<Number> values(check_extents(name, expected, sizeof(Number)));
+    std::vector<Number> values(check_extents(name, expected));
     read_raw(name, 0, hdf5_number<Number>(), values.data(), values.size());
     return values;
   }
@@ -149,9 +123,9 @@ class Hdf5Reader {
   [[nodiscard]] std::string read_note(const std::string& name) const;
 
  private:
-  /// The product of the extents, after comparing them with the dataset's and with the file's size.
-  [[nodiscard]] std::size_t check_extents(const std::string& name, const Hdf5Extents& expected,
-                                          std::size_t number_size) const;
+  /// The product of the extents, after comparing them with the dataset's.
+  [[nodiscard]] std::size_t check_extents(const std::string& name,
+                                          const Hdf5Extents& expected) const;
   void read_raw(const std::string& name, std::uint64_t first, Hdf5Number type, void* values,
                 std::uint64_t count) const;
   [[nodiscard]] std::uint64_t place_of(const std::string& name, Hdf5Number type,

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <mutex>
+#include <utility>
 
 /// What every caller of the HDF5 library needs. Its header stays out of ours: hid_t is std::int64_t
 /// and herr_t is int, which hdf5_handle.cpp asserts.
@@ -12,12 +13,21 @@ namespace reckon {
 /// An HDF5 handle and the function that closes it.
 class Hdf5Handle {
  public:
-  Hdf5Handle(std::int64_t id, int (*close)(std::int64_t)) : id_{id}, close_{close} {}
+  Hdf5Handle(std::int64_t id, int (*closer)(std::int64_t)) : id_{id}, close_{closer} {}
   ~Hdf5Handle() {
     if (id_ >= 0) close_(id_);
   }
+  Hdf5Handle(Hdf5Handle&& other) noexcept
+      : id_{std::exchange(other.id_, -1)}, close_{other.close_} {}
   Hdf5Handle(const Hdf5Handle&) = delete;
   Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(Hdf5Handle&&) = delete;
+
+  /// Says whether closing went well: what the library still held back may only now meet the disk.
+  [[nodiscard]] bool close() {
+    const std::int64_t id = std::exchange(id_, -1);
+    return id < 0 || close_(id) >= 0;
+  }
 
   [[nodiscard]] std::int64_t get() const { return id_; }
   [[nodiscard]] bool valid() const { return id_ >= 0; }

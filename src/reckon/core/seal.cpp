@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/core/seal.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "reckon/core/error.hpp"
+#include "reckon/core/file.hpp"
+#include "reckon/core/write_failure.hpp"
 #include "reckon/core/xxhash64.hpp"
 
 namespace reckon {
@@ -28,17 +30,15 @@ constexpr std::string_view family = "Sand Reckoner ";
                .fix = std::move(fix)}};
 }
 
-/// Hashes the rest of the stream and returns the number of bytes.
-std::uint64_t hash_rest(std::istream& stream, XxHash64& hash) {
+/// Hashes what follows the seal and returns the length of the whole file.
+std::uint64_t hash_content(const OpenFile& file, XxHash64& hash) {
   std::vector<char> buffer(1 << 20);
-  std::uint64_t total = 0;
-  while (stream) {
-    stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-    const auto count = static_cast<std::size_t>(stream.gcount());
+  std::uint64_t size = seal_size;
+  while (const std::size_t count = file.read(size, buffer)) {
     hash.update(std::string_view{buffer.data(), count});
-    total += count;
+    size += count;
   }
-  return total;
+  return size;
 }
 
 /// The lines of a seal that its own hash covers.
@@ -65,33 +65,30 @@ bool take_number(std::string_view& text, std::string_view key, int base, std::ui
 
 }  // namespace
 
-void write_seal(const std::filesystem::path& path, const std::string& kind, std::uint32_t version) {
-  std::fstream file{path, std::ios::in | std::ios::out | std::ios::binary};
-  file.seekg(seal_size);
+void write_seal(const std::filesystem::path& path, const std::string& kind, std::uint32_t version,
+                const std::filesystem::path& named) {
+  OpenFile file{path, O_RDWR, named};
   XxHash64 hash;
-  const std::uint64_t size = seal_size + (file ? hash_rest(file, hash) : 0);
-  file.clear();
+  const std::uint64_t size = hash_content(file, hash);
+  if (size != file.size()) throw_write_failure(named, 0);  // shorter than a seal, or growing
   const std::string head = seal_head(kind, version, size);
   hash.update(head);
   const std::string seal = whole_seal(head, hash.digest());
-  file.seekp(0);
-  file.write(seal.data(), seal_size);
-  file.close();
-  if (!file) {
-    refuse(path, "cannot be sealed", "writing its first bytes failed",
-           "Check the free space and the file system.");
+  file.write(0, seal);
+  std::array<char, seal_size> found{};
+  if (file.read(0, found) != seal_size || std::string_view{found.data(), seal_size} != seal) {
+    throw_write_failure(named, 0);
   }
+  file.close();
 }
 
 SealContent check_seal(const std::filesystem::path& path, const std::string& kind) {
-  std::ifstream file{path, std::ios::binary};
-  if (!file || std::filesystem::is_directory(path)) {
-    refuse(path, "cannot be read", file ? "it is a folder" : "it does not exist or may not be read",
-           "Check the path and its permissions.");
+  if (std::filesystem::is_directory(path)) {
+    refuse(path, "cannot be read", "it is a folder", "Check the path and its permissions.");
   }
+  const OpenFile file{path, O_RDONLY | O_NONBLOCK};  // a pipe must not keep us waiting
   std::array<char, seal_size> head{};
-  file.read(head.data(), seal_size);
-  const auto head_size = static_cast<std::size_t>(file.gcount());
+  const std::size_t head_size = file.read(0, head);
   std::string_view text{head.data(), head_size};
   text = text.substr(0, text.find('\0'));
   const std::string_view title = text.substr(0, text.find('\n'));
@@ -112,7 +109,7 @@ SealContent check_seal(const std::filesystem::path& path, const std::string& kin
     refuse(path, "is damaged", "its seal cannot be read", "Make it anew or restore a copy.");
   }
   XxHash64 hash;
-  const std::uint64_t found_size = seal_size + hash_rest(file, hash);
+  const std::uint64_t found_size = hash_content(file, hash);
   if (found_size != size) {
     refuse(path, "is damaged",
            fmt::format("it has {} bytes where its seal says {}", found_size, size),

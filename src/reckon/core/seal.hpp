@@ -21,8 +21,10 @@ namespace reckon {
 /// it is.
 inline constexpr std::size_t seal_size = 512;
 
-/// Writes the seal over the first 512 bytes of a file that is otherwise complete.
-void write_seal(const std::filesystem::path& path, const std::string& kind, std::uint32_t version);
+/// Writes the seal over the first 512 bytes of a file that is otherwise complete. Throws
+/// MachineFailure, or Error when the file cannot be read, with the name `named`.
+void write_seal(const std::filesystem::path& path, const std::string& kind, std::uint32_t version,
+                const std::filesystem::path& named);
 
 struct SealContent {
   std::uint32_t version{0};

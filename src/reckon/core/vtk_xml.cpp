@@ -11,6 +11,7 @@
 
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/core/utf8.hpp"
 
 namespace reckon {
 namespace {
@@ -24,7 +25,11 @@ static_assert(std::endian::native == std::endian::little,
 
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : valid_utf8(text)) {
+    if (static_cast<unsigned char>(c) < 0x20) {  // XML has no way to write most of them
+      out += ' ';
+      continue;
+    }
     switch (c) {
       case '&':
         out += "&amp;";

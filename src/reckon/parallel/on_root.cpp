@@ -3,12 +3,14 @@
 #include "reckon/parallel/on_root.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstring>
 #include <exception>
-#include <optional>
 #include <string>
 
 #include "reckon/core/error.hpp"
+#include "reckon/core/failure_text.hpp"
+#include "reckon/core/write_failure.hpp"
 
 namespace reckon {
 namespace {
@@ -16,9 +18,9 @@ namespace {
 constexpr std::array text_parts{&ErrorText::place, &ErrorText::problem, &ErrorText::reason,
                                 &ErrorText::fix};
 
-/// The four parts one after another, each with a NUL behind it.
-Bytes to_bytes(const ErrorText& text) {
-  Bytes bytes;
+/// A byte that says whether the machine failed, then the four parts, each with a NUL behind it.
+Bytes to_bytes(const ErrorText& text, bool machine_failed) {
+  Bytes bytes{std::byte{machine_failed}};
   for (const auto part : text_parts) {
     const std::string& words = text.*part;
     const std::size_t end = bytes.size();
@@ -30,7 +32,7 @@ Bytes to_bytes(const ErrorText& text) {
 
 ErrorText to_text(const Bytes& bytes) {
   ErrorText text;
-  const char* next = reinterpret_cast<const char*>(bytes.data());
+  const char* next = reinterpret_cast<const char*>(bytes.data()) + 1;
   for (const auto part : text_parts) {
     text.*part = next;
     next += (text.*part).size() + 1;
@@ -41,18 +43,18 @@ ErrorText to_text(const Bytes& bytes) {
 }  // namespace
 
 void on_root(const Communicator& ranks, const std::function<void()>& work) {
-  std::optional<ErrorText> failure;
+  Bytes failure;
   if (ranks.is_root()) {
     try {
       work();
-    } catch (const Error& error) {
-      failure = error.text();
     } catch (const std::exception& error) {
-      failure = ErrorText{.place = {}, .problem = error.what(), .reason = {}, .fix = {}};
+      failure = to_bytes(failure_text(error), is_failure_of_machine(error));
     }
   }
-  const Bytes news = ranks.broadcast(failure ? to_bytes(*failure) : Bytes{});
-  if (!news.empty()) throw Error{to_text(news)};
+  const Bytes news = ranks.broadcast(failure);
+  if (news.empty()) return;
+  if (news.front() != std::byte{0}) throw MachineFailure{to_text(news)};
+  throw Error{to_text(news)};
 }
 
 }  // namespace reckon

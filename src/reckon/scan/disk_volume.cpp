@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "reckon/core/error.hpp"
+#include "reckon/core/write_failure.hpp"
 
 namespace reckon {
 namespace {
@@ -37,7 +38,7 @@ ByteFile::ByteFile(const std::filesystem::path& file)
 std::shared_ptr<ByteFile> ByteFile::scratch(const std::filesystem::path& folder) {
   std::string name = (folder / ".scratch-XXXXXX").string();
   const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
-  if (descriptor < 0) fail(folder, "a scratch file cannot be made");
+  if (descriptor < 0) throw_write_failure(folder, errno, "a scratch file cannot be made");
   ::unlink(name.c_str());
   return std::shared_ptr<ByteFile>{new ByteFile{descriptor, folder}};
 }
@@ -61,7 +62,9 @@ void ByteFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const auto put = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (put < 0 && errno == EINTR) continue;
-    if (put <= 0) fail(path_, "a scratch file cannot be written");
+    if (put <= 0) {
+      throw_write_failure(path_, put < 0 ? errno : ENOSPC, "a scratch file cannot be written");
+    }
     offset += static_cast<std::uint64_t>(put);
     bytes = bytes.subspan(static_cast<std::size_t>(put));
   }
@@ -69,7 +72,7 @@ void ByteFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
 
 void ByteFile::resize(std::uint64_t size) {
   if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) {
-    fail(path_, "a scratch file cannot be made");
+    throw_write_failure(path_, errno, "a scratch file cannot be made");
   }
 }
 

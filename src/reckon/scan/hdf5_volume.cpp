@@ -6,12 +6,18 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/hdf5_handle.hpp"
+#include "reckon/core/hdf5_parts.hpp"
+#include "reckon/core/write_failure.hpp"
 #include "reckon/scan/volume_formats.hpp"
 
 namespace reckon {
@@ -38,13 +44,47 @@ bool is_volume(hid_t dataset) {
   return lengths.size() >= 3 && longer <= 3;
 }
 
+bool is_volume(hid_t root, const char* name) {
+  try {
+    const Hdf5Handle dataset = hdf5_open_dataset(root, name, {});
+    return dataset.valid() && is_volume(dataset.get());
+  } catch (const Error&) {
+    return true;  // kept in another file: opening it says so
+  }
+}
+
 herr_t collect_volumes(hid_t root, const char* name, const H5O_info_t* info, void* data) {
-  if (info->type != H5O_TYPE_DATASET) return 0;
-  const Hdf5Handle dataset{H5Dopen2(root, name, H5P_DEFAULT), H5Dclose};
-  if (dataset.valid() && is_volume(dataset.get())) {
+  if (info->type == H5O_TYPE_DATASET && is_volume(root, name)) {
     static_cast<std::vector<std::string>*>(data)->emplace_back(name);
   }
   return 0;
+}
+
+/// A damaged or hostile header must not ask for memory that no file could fill. What is packed
+/// takes less than it holds, but no scan of grains takes so little.
+void check_storage(hid_t dataset, std::uint64_t bytes, const std::filesystem::path& path) {
+  constexpr std::uint64_t most_compression = 10000;
+  constexpr std::uint64_t small = std::uint64_t{64} << 20U;  // [bytes]
+  const std::uint64_t stored = H5Dget_storage_size(dataset);
+  const std::uint64_t most =
+      std::max(small, std::min(stored, std::filesystem::file_size(path)) * most_compression);
+  if (bytes > most) {
+    refuse_volume(path, "the volume claims more voxels than the file can hold",
+                  fmt::format("{} bytes are said to be packed in {}", bytes, stored),
+                  "The file is cut short, was never filled, or is damaged: copy it again.");
+  }
+  const Hdf5Handle creation{H5Dget_create_plist(dataset), H5Pclose};
+  if (H5Pget_layout(creation.get()) != H5D_CHUNKED) return;
+  const Hdf5Handle type{H5Dget_type(dataset), H5Tclose};
+  std::vector<hsize_t> chunk(lengths_of(dataset).size());
+  H5Pget_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data());
+  const std::uint64_t chunk_bytes = std::accumulate(
+      chunk.begin(), chunk.end(), std::uint64_t{H5Tget_size(type.get())}, std::multiplies<>{});
+  if (chunk_bytes > most) {
+    refuse_volume(path, "the volume has larger chunks than the file can hold",
+                  fmt::format("{} bytes each", chunk_bytes),
+                  "Copy the file again, or pack it anew (h5repack).");
+  }
 }
 
 std::string only_volume(hid_t file, const std::filesystem::path& path) {
@@ -125,7 +165,7 @@ class Hdf5VolumeReader : public VolumeReader {
       : path_{file},
         file_{H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose},
         name_{dataset_in(file_, file, dataset)},
-        dataset_{H5Dopen2(file_.get(), name_.c_str(), H5P_DEFAULT), H5Dclose} {
+        dataset_{hdf5_open_dataset(file_.get(), name_, file)} {
     if (!dataset_.valid()) {
       refuse_volume(file, fmt::format("there is no dataset {}", name_), {},
                     "h5dump -n lists what it holds.");
@@ -139,6 +179,8 @@ class Hdf5VolumeReader : public VolumeReader {
       places_[2 - axis] = lengths.size() - 1 - axes[axis];
     }
     outline.type = type_of(dataset_.get());
+    const Hdf5Handle type{H5Dget_type(dataset_.get()), H5Tclose};
+    check_storage(dataset_.get(), Box{outline.dims}.voxels() * H5Tget_size(type.get()), file);
     const Hdf5Handle attribute{H5Aopen(dataset_.get(), "voxel", H5P_DEFAULT), H5Aclose};
     double spacing = 0;
     if (attribute.valid() && H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &spacing) >= 0) {
@@ -184,11 +226,13 @@ class Hdf5VolumeWriter : public VolumeWriter {
       : pending_{file}, what_{what} {
     file_.emplace(H5Fcreate(pending_.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
                   H5Fclose);
+    require(file_->valid());
     const auto extents = extents_of(what.dims);
     const Hdf5Handle space{H5Screate_simple(3, extents.data(), nullptr), H5Sclose};
     dataset_.emplace(H5Dcreate2(file_->get(), "/volume", stored_type(what.type), space.get(),
                                 H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                      H5Dclose);
+    require(dataset_->valid());
     const Hdf5Handle scalar{H5Screate(H5S_SCALAR), H5Sclose};
     const Hdf5Handle attribute{H5Acreate2(dataset_->get(), "voxel", H5T_IEEE_F64LE, scalar.get(),
                                           H5P_DEFAULT, H5P_DEFAULT),
@@ -197,12 +241,14 @@ class Hdf5VolumeWriter : public VolumeWriter {
   }
   ~Hdf5VolumeWriter() override {
     const QuietHdf5 quiet;
-    close();
+    dataset_.reset();
+    file_.reset();
   }
 
   void write_layers(const GrayVolume& layers) override {
     const QuietHdf5 quiet;
     const std::string bytes = encode_numbers(layers.values, what_.type);
+    record_.add(bytes);
     const auto extents = extents_of(layers.dims);
     const Hdf5Handle space{select(dataset_->get(), next_, extents, plain_places), H5Sclose};
     const Hdf5Handle memory{H5Screate_simple(3, extents.data(), nullptr), H5Sclose};
@@ -213,21 +259,22 @@ class Hdf5VolumeWriter : public VolumeWriter {
   void finish() override {
     const QuietHdf5 quiet;
     require(H5Fflush(file_->get(), H5F_SCOPE_GLOBAL) >= 0);
-    close();
+    require(dataset_->close());
+    require(file_->close());
+    record_.compare(what_, pending_.target(),
+                    [&] { return open_hdf5_volume(pending_.temporary(), "/volume"); });
     pending_.commit();
   }
 
  private:
-  void close() {
-    dataset_.reset();
-    file_.reset();
-  }
   void require(bool written) const {
-    if (!written) refuse_unwritten(pending_.target());
+    if (written) return;
+    throw_write_failure(pending_.target(), hdf5_error_number(), "the volume could not be written");
   }
 
   PendingFile pending_;
   VolumeOutline what_;
+  LayerRecord record_;
   std::optional<Hdf5Handle> file_;
   std::optional<Hdf5Handle> dataset_;
   hsize_t next_{0};  // layer

@@ -115,8 +115,8 @@ TiffFile::TiffFile(const std::filesystem::path& file, const char* mode, std::fil
   TIFFOpenOptionsSetWarningHandlerExtR(options, ignore, nullptr);
   tiff_.reset(TIFFOpenExt(file.c_str(), mode, options));
   TIFFOpenOptionsFree(options);
-  require(tiff_ != nullptr,
-          *mode == 'r' ? "this is no TIFF file, or it is damaged" : "the file cannot be written");
+  if (tiff_ == nullptr && *mode == 'w') refuse_unwritten(path_);
+  require(tiff_ != nullptr, "this is no TIFF file, or it is damaged");
 }
 
 void TiffFile::require(bool good, const std::string& problem) const {

@@ -152,6 +152,7 @@ class TiffWriter : public VolumeWriter {
 
   void write_layers(const GrayVolume& layers) override {
     std::string bytes = encode_numbers(layers.values, what_.type);
+    record_.add(bytes);
     const std::size_t page = bytes.size() / static_cast<std::size_t>(layers.dims[2]);
     for (std::size_t at = 0; at < bytes.size(); at += page) {
       set_fields();
@@ -165,6 +166,11 @@ class TiffWriter : public VolumeWriter {
   void finish() override {
     if (TIFFFlush(tiff_->get()) != 1) refuse_unwritten(pending_.target());
     tiff_.reset();
+    record_.compare(what_, pending_.target(), [&]() -> std::unique_ptr<VolumeReader> {
+      const std::filesystem::path& file = pending_.temporary();
+      if (what_.dims[2] > 1) return TiffStack::open(file);
+      return std::make_unique<TiffSlices>(SliceOrder{{file}, {}});
+    });
     pending_.commit();
   }
 
@@ -189,6 +195,7 @@ class TiffWriter : public VolumeWriter {
 
   PendingFile pending_;
   VolumeOutline what_;
+  LayerRecord record_;
   std::unique_ptr<TiffFile> tiff_;
 };
 

@@ -5,12 +5,14 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "reckon/core/xxhash64.hpp"
 #include "reckon/scan/volume_file.hpp"
 
 /// The formats behind volume_file.hpp, each with its own source.
@@ -110,7 +112,21 @@ void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::st
 [[nodiscard]] std::string metaimage_header(const VolumeOutline& what);
 [[nodiscard]] std::string nrrd_header(const VolumeOutline& what);
 [[nodiscard]] std::filesystem::path sidecar_of(const std::filesystem::path& file);
-/// Throws Error.
+/// Throws MachineFailure with the system's last word.
 [[noreturn]] void refuse_unwritten(const std::filesystem::path& file);
+
+/// What was handed to a library that writes volumes, to be compared with what it has written: such
+/// libraries do not report every failure.
+class LayerRecord {
+ public:
+  void add(std::string_view bytes);  ///< of encode_numbers, layer by layer
+  /// Throws MachineFailure about the file `named` unless the volume that `open` opens is the one
+  /// that was handed over.
+  void compare(const VolumeOutline& what, const std::filesystem::path& named,
+               const std::function<std::unique_ptr<VolumeReader>()>& open) const;
+
+ private:
+  XxHash64 hash_;
+};
 
 }  // namespace reckon

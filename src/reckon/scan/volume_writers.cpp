@@ -1,12 +1,17 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
 #include <fmt/format.h>
 
-#include <fstream>
+#include <cerrno>
+#include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 
+#include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/core/write_failure.hpp"
 #include "reckon/scan/volume_formats.hpp"
 
 namespace reckon {
@@ -29,7 +34,7 @@ class PlainWriter : public VolumeWriter {
   PlainWriter(const std::filesystem::path& file, VoxelType type, const std::string& header,
               std::string sidecar = {})
       : pending_{file},
-        stream_{pending_.temporary(), std::ios::binary},
+        file_{pending_.temporary(), O_WRONLY | O_CREAT | O_TRUNC, file},
         type_{type},
         sidecar_{std::move(sidecar)} {
     put(header);
@@ -39,23 +44,20 @@ class PlainWriter : public VolumeWriter {
     put(encode_numbers(layers.values, type_));
   }
   void finish() override {
-    stream_.close();
-    check();
+    file_.close();
     if (!sidecar_.empty()) write_file(sidecar_of(pending_.target()), sidecar_);
     pending_.commit();
   }
 
  private:
   void put(const std::string& bytes) {
-    stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    check();
-  }
-  void check() const {
-    if (!stream_) refuse_unwritten(pending_.target());
+    file_.write(written_, bytes);
+    written_ += bytes.size();
   }
 
   PendingFile pending_;
-  std::ofstream stream_;
+  OpenFile file_;
+  std::uint64_t written_{0};  // [bytes]
   VoxelType type_;
   std::string sidecar_;
 };
@@ -63,8 +65,33 @@ class PlainWriter : public VolumeWriter {
 }  // namespace
 
 void refuse_unwritten(const std::filesystem::path& file) {
-  refuse_volume(file, "the volume could not be written", {},
-                "Check the folder's permissions and the free space.");
+  throw_write_failure(file, errno, "the volume could not be written");
+}
+
+void LayerRecord::add(std::string_view bytes) { hash_.update(bytes); }
+
+void LayerRecord::compare(const VolumeOutline& what, const std::filesystem::path& named,
+                          const std::function<std::unique_ptr<VolumeReader>()>& open) const {
+  XxHash64 found;
+  std::string fault;
+  try {
+    const auto reader = open();
+    const VolumeOutline& found_outline = reader->outline;
+    const std::optional<double> edge = found_outline.spacing.edge;
+    const bool same_voxel = !edge || edge == what.spacing.edge;
+    if (found_outline.dims != what.dims || found_outline.type != what.type || !same_voxel) {
+      fault = "its header";
+    }
+    for (std::int32_t layer = 0; fault.empty() && layer < what.dims[2]; ++layer) {
+      found.update(encode_numbers(reader->read_layers(layer, 1).values, what.type));
+    }
+    if (fault.empty() && found.digest() != hash_.digest()) fault = "its numbers";
+  } catch (const Error& error) {
+    fault = error.text().problem;
+  }
+  if (fault.empty()) return;
+  throw_write_failure(named, 0,
+                      "the volume could not be written, as reading it back shows: " + fault);
 }
 
 std::filesystem::path sidecar_of(const std::filesystem::path& file) {

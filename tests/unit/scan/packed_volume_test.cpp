@@ -183,12 +183,12 @@ TEST_F(PackedVolumes, FullDiskIsSaidAndLeavesNothing) {
         [&] {
           (void)load_volume({path(name), voxel, {}}, {folder_, 1, 0});
         },
-        {folder_.string(), "scratch", "free space"});
+        {folder_.string(), "scratch", "ulimit -f"});
   }
-  for (const std::string name : {"o.npy", "o.raw", "o.mha", "o.tif"}) {
+  for (const std::string name : {"o.npy", "o.raw", "o.mha", "o.tif", "o.h5"}) {
     SCOPED_TRACE(name);
     expect_error([&] { write_volume(path(name), volume, VoxelType::uint8); },
-                 {name, "could not be written", "free space"});
+                 {name, "ulimit -f"});
   }
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
   (void)std::signal(SIGXFSZ, on_signal);
