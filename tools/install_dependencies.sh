@@ -13,7 +13,7 @@ packages_of() {
     build)  # what it takes to compile and run the program
       echo g++ cmake ninja-build ccache \
         libfmt-dev libeigen3-dev libhdf5-dev libtomlplusplus-dev libcli11-dev libhwy-dev \
-        libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev zlib1g-dev libtiff-dev libcpp-httplib-dev pkgconf ;;
+        libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev zlib1g-dev libtiff-dev ;;
     test)  # what ./check needs beyond that
       echo libgtest-dev clang clang-format clang-tidy libclang-rt-14-dev libomp-dev \
         python3 git chromium fonts-dejavu-core python3-mpi4py ;;

@@ -40,8 +40,8 @@ void watch(const Options& options) {
     while (stop_signal() == 0 && !ended) std::this_thread::sleep_for(std::chrono::milliseconds{50});
     server.stop();
   }};
-  fmt::print("{}: http://127.0.0.1:{}/  (only on this machine; Ctrl-C ends)\n", options.folder,
-             server.port());
+  fmt::print("{}: {}  (only on this machine, only with this address; Ctrl-C ends)\n",
+             options.folder, server.address());
   std::fflush(stdout);
   server.serve();
   ended = true;
@@ -65,7 +65,9 @@ void add_watch_command(CLI::App& app) {
       ->capture_default_str();
   command->footer(
       "The page follows the run. It is read-only, and nothing but the run can be read through it.\n"
-      "From another machine: ssh -L 8000:127.0.0.1:8000 HOST, with --port 8000 there.\n\n"
+      "The address holds a token: without it, other users of the machine cannot read the run.\n"
+      "From another machine: ssh -L 8000:127.0.0.1:8000 HOST, with --port 8000 there; then open\n"
+      "the address that is printed.\n\n"
       "Example:\n"
       "  reckon run settle.toml & reckon watch settle.run");
   command->callback([options] { watch(*options); });

@@ -16,7 +16,7 @@ RECIPE = REPOSITORY / "packages/reckon/package.py"
 # What CMake finds, and who brings it in Spack. None: comes with the compiler or CMake.
 PACKAGE_OF = {"Threads": None, "OpenMP": None, "fmt": "fmt", "Eigen3": "eigen", "HDF5": "hdf5", "tomlplusplus": "tomlplusplus",
               "CLI11": "cli11", "hwy": "highway", "ZLIB": "zlib-api", "TIFF": "libtiff", "MPI": "mpi", "Zoltan": "zoltan", "ITK": "itk",
-              "Python": "python", "pybind11": "py-pybind11", "GTest": "googletest", "httplib": "cpp-httplib"}
+              "Python": "python", "pybind11": "py-pybind11", "GTest": "googletest"}
 FOR_DEVELOPERS = {"RECKON_WARNINGS_AS_ERRORS", "RECKON_FUZZERS"}
 
 

@@ -3,124 +3,129 @@
 #include "reckon/report/watch_server.hpp"
 
 #include <fmt/format.h>
-#include <httplib.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <charconv>
+#include <cstdint>
 #include <exception>
-#include <mutex>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "reckon/core/error.hpp"
+#include "reckon/report/http_server.hpp"
 #include "reckon/report/page.hpp"
 #include "reckon/report/watch_version.hpp"
 
 namespace reckon {
 namespace {
 
-constexpr const char* loopback = "127.0.0.1";
-constexpr int not_found = 404;
-constexpr int misdirected = 421;
+constexpr const char* packed = "application/octet-stream";
 
 /// What the page may do in a browser: its own scripts, and requests to where it came from.
-const httplib::Headers headers{
-    {"Cache-Control", "no-store"},
-    {"Content-Security-Policy",
-     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src "
-     "'self'; img-src data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
-    {"Cross-Origin-Resource-Policy", "same-origin"},
-    {"Referrer-Policy", "no-referrer"},
-    {"X-Content-Type-Options", "nosniff"}};
+constexpr const char* headers =
+    "Cache-Control: no-store\r\n"
+    "Content-Security-Policy: default-src 'none'; script-src 'unsafe-inline'; style-src "
+    "'unsafe-inline'; connect-src 'self'; img-src data: blob:; base-uri 'none'; form-action "
+    "'none'; frame-ancestors 'none'\r\n"
+    "Cross-Origin-Resource-Policy: same-origin\r\n"
+    "Referrer-Policy: no-referrer\r\n"
+    "X-Content-Type-Options: nosniff\r\n";
 
-bool names_this_machine(std::string host) {
-  const std::size_t colon = host.rfind(':');
-  if (colon != std::string::npos) host.resize(colon);
-  return host == loopback || host == "localhost";
+bool names_this_machine(const std::string& host) {
+  return host == "127.0.0.1" || host == "localhost";
+}
+
+/// 128 bits that nobody can guess, from the system.
+std::string make_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (::getentropy(bytes.data(), bytes.size()) != 0) {
+    throw Error{{.place = "watch",
+                 .problem = "the system gives no random numbers for a token",
+                 .reason = std::generic_category().message(errno),
+                 .fix = {}}};
+  }
+  std::string token;
+  for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
+  return token;
+}
+
+/// Takes as long for every word of the same length.
+bool same_secret(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  unsigned difference = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    const auto byte = [&](std::string_view text) -> unsigned {
+      return static_cast<unsigned char>(text[n]);
+    };
+    difference |= byte(a) ^ byte(b);
+  }
+  return difference == 0;
 }
 
 }  // namespace
 
 struct WatchServer::Impl {
-  Impl(RunFolder run, PageLimits limits) : folder{std::move(run)}, pieces{folder, limits} {}
+  Impl(RunFolder run, PageLimits limits, int port)
+      : folder{std::move(run)},
+        pieces{folder, limits},
+        page{live_page()},
+        token{make_token()},
+        server{port, headers, [this](const HttpRequest& request) { return answer(request); }} {}
 
-  /// Answers with what `make` returns, or with why it could not.
-  template <class Make>
-  void answer(httplib::Response& response, const char* type, Make&& make) {
+  [[nodiscard]] HttpAnswer answer(const HttpRequest& request) {
+    if (!names_this_machine(request.host)) return {421, {}, {}};
+    std::string_view path = request.path;
+    if (!path.starts_with('/') || !same_secret(path.substr(1, token.size()), token)) {
+      return {.status = 403,
+              .body = "The address must hold the token that `reckon watch` has printed.\n"};
+    }
+    path.remove_prefix(1 + token.size());
     try {
-      const std::lock_guard lock{mutex};  // the readers of files are not made for many at once
-      response.set_content(make(), type);
+      return answer_to(path);
     } catch (const std::exception& error) {  // the run may be replaced at this very moment
-      response.status = 503;
-      response.set_content(error.what(), "text/plain; charset=utf-8");
+      return {.status = 503, .body = error.what()};
     }
   }
 
-  void answer_frame(const httplib::Request& request, httplib::Response& response) {
-    const std::string text = request.matches[1].str();
+  [[nodiscard]] HttpAnswer answer_to(std::string_view path) {
+    constexpr std::string_view frames = "/piece/0/frame/";
+    if (path == "/") return {200, "text/html; charset=utf-8", page};
+    if (path == "/version") return {.body = version_of(folder)};
+    if (path == "/piece/0/head") return {200, packed, pieces.head()};
+    if (!path.starts_with(frames)) return {404, {}, {}};
+    path.remove_prefix(frames.size());
     std::uint64_t step = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), step);
+    const auto [end, code] = std::from_chars(path.data(), path.data() + path.size(), step);
     const std::vector<std::uint64_t> saved = folder.field_steps("grains");
-    if (code != std::errc{} || end != text.data() + text.size() ||
+    if (code != std::errc{} || end != path.data() + path.size() ||
         !std::binary_search(saved.begin(), saved.end(), step)) {
-      response.status = not_found;
-      return;
+      return {404, {}, {}};
     }
-    answer(response, "application/octet-stream", [&] { return pieces.frame(step); });
+    return {200, packed, pieces.frame(step)};
   }
 
   RunFolder folder;
   RunPieces pieces;
-  std::mutex mutex;
-  httplib::Server server;
-  int port{0};
+  std::string page;
+  std::string token;
+  HttpServer server;
 };
 
 WatchServer::WatchServer(RunFolder folder, PageLimits limits, int port)
-    : impl_{std::make_unique<Impl>(std::move(folder), limits)} {
-  httplib::Server& server = impl_->server;
-  const std::string page = live_page();
-  server.set_default_headers(headers);
-  server.set_keep_alive_max_count(100);
-  server.set_payload_max_length(0);
-  server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
-    using Handled = httplib::Server::HandlerResponse;
-    if (request.method != "GET" && request.method != "HEAD") {
-      response.status = 405;
-      return Handled::Handled;
-    }
-    if (names_this_machine(request.get_header_value("Host"))) return Handled::Unhandled;
-    response.status = misdirected;
-    return Handled::Handled;
-  });
-  server.Get("/", [page](const httplib::Request&, httplib::Response& response) {
-    response.set_content(page, "text/html; charset=utf-8");
-  });
-  server.Get("/version", [this](const httplib::Request&, httplib::Response& response) {
-    impl_->answer(response, "text/plain", [&] { return version_of(impl_->folder); });
-  });
-  server.Get("/piece/0/head", [this](const httplib::Request&, httplib::Response& response) {
-    impl_->answer(response, "application/octet-stream", [&] { return impl_->pieces.head(); });
-  });
-  server.Get(R"(/piece/0/frame/(\d{1,20}))",
-             [this](const httplib::Request& request, httplib::Response& response) {
-               impl_->answer_frame(request, response);
-             });
-  const bool bound = port == 0 ? (impl_->port = server.bind_to_any_port(loopback)) > 0
-                               : server.bind_to_port(loopback, impl_->port = port);
-  if (bound) return;
-  throw Error{{.place = fmt::format("port {}", port),
-               .problem = "cannot be listened to",
-               .reason = "another program has it, or it may not be used",
-               .fix = "Give another one with --port, or none."}};
+    : impl_{std::make_unique<Impl>(std::move(folder), limits, port)} {}
+
+WatchServer::~WatchServer() = default;
+
+std::string WatchServer::address() const {
+  return fmt::format("http://127.0.0.1:{}/{}/", impl_->server.port(), impl_->token);
 }
 
-WatchServer::~WatchServer() { stop(); }
-
-int WatchServer::port() const { return impl_->port; }
-
-void WatchServer::serve() { impl_->server.listen_after_bind(); }
+void WatchServer::serve() { impl_->server.serve(); }
 
 void WatchServer::stop() { impl_->server.stop(); }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "reckon/report/run_pieces.hpp"
 
@@ -11,11 +12,13 @@ namespace reckon {
 /// Shows one run in browsers on this machine while it goes on. Answers GET only, on 127.0.0.1 only,
 /// and only
 ///
-///   /                       the page
-///   /version                a word that changes when the run has written something
-///   /piece/0/head           RunPieces::head()
-///   /piece/0/frame/STEP     RunPieces::frame(STEP), where the run has saved that step
+///   /TOKEN/                       the page
+///   /TOKEN/version                a word that changes when the run has written something
+///   /TOKEN/piece/0/head           RunPieces::head()
+///   /TOKEN/piece/0/frame/STEP     RunPieces::frame(STEP), where the run has saved that step
 ///
+/// TOKEN is made anew for each server: other users of the machine can reach the port, but only who
+/// has the address can read the run.
 /// No part of a request becomes part of a path, so nothing but the run can be read. Requests that
 /// name another host (a foreign page's attempt to reach it, by DNS rebinding) are refused.
 class WatchServer {
@@ -26,7 +29,8 @@ class WatchServer {
   WatchServer(const WatchServer&) = delete;
   WatchServer& operator=(const WatchServer&) = delete;
 
-  [[nodiscard]] int port() const;
+  /// Where the page is, with the token.
+  [[nodiscard]] std::string address() const;
   /// Answers until stop() is called, from another thread.
   void serve();
   void stop();

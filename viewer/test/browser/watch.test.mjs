@@ -15,13 +15,16 @@ let browser;
 let runs;
 let server;
 let port;
+let home; // the path of the page, with the token
 
 before(async () => {
   runs = makeRuns({ live: { scene: pressedScene(), steps: 1500 } });
   server = spawn(program, ["watch", "live.run"], { cwd: runs.folder, stdio: ["ignore", "pipe", "inherit"] });
   let said = "";
   while (!said.includes("\n")) said += await once(server.stdout, "data");
-  port = Number(/http:\/\/127\.0\.0\.1:(\d+)\//.exec(said)[1]);
+  const address = /http:\/\/127\.0\.0\.1:(\d+)(\/[0-9a-f]{32}\/)/.exec(said);
+  port = Number(address[1]);
+  home = address[2];
   browser = await launch();
 });
 after(async () => {
@@ -49,24 +52,26 @@ function status(path, { method = "GET", headers = {} } = {}) {
 }
 
 test("only the page and the run's pieces are served", async () => {
-  for (const path of ["/", "/version", "/piece/0/head", "/piece/0/frame/500"]) {
-    assert.equal((await status(path)).code, 200, path);
+  for (const path of ["", "version", "piece/0/head", "piece/0/frame/500"]) {
+    assert.equal((await status(home + path)).code, 200, path);
+    assert.equal((await status(`/${path}`)).code, 403, `${path}, without the token`);
+    assert.equal((await status(`/${"0".repeat(32)}/${path}`)).code, 403, `${path}, by a wrong token`);
   }
   for (const path of [
-    "/scene.toml",
-    "/live.run/history.csv",
-    "/../sand.h5",
-    "/..%2fsand.h5",
-    "/piece/0/frame/../../../etc/passwd",
-    "/piece/0/frame/..%2f..%2fscene.toml",
-    "/piece/0/frame/501",
-    "/piece/0/frame/-1",
-    "/piece/0/frame/99999999999999999999",
-    "/piece/1/head",
-    "//etc/passwd",
-    "/%00",
+    "scene.toml",
+    "live.run/history.csv",
+    "../sand.h5",
+    "..%2fsand.h5",
+    "piece/0/frame/../../../etc/passwd",
+    "piece/0/frame/..%2f..%2fscene.toml",
+    "piece/0/frame/501",
+    "piece/0/frame/-1",
+    "piece/0/frame/99999999999999999999",
+    "piece/1/head",
+    "/etc/passwd",
+    "%00",
   ]) {
-    const answer = await status(path);
+    const answer = await status(home + path);
     assert.ok(answer.code === 404 || answer.code === 400, `${path}: ${answer.code}`);
     assert.ok(!answer.text.includes("root:") && !answer.text.includes("[material]"), path);
   }
@@ -74,10 +79,24 @@ test("only the page and the run's pieces are served", async () => {
 
 test("it is read-only, and answers only to this machine's names", async () => {
   for (const method of ["POST", "PUT", "DELETE", "PATCH", "OPTIONS"]) {
-    assert.ok((await status("/", { method })).code >= 400, method);
+    assert.ok((await status(home, { method })).code >= 400, method);
   }
-  assert.equal((await status("/version", { headers: { Host: "elsewhere.example" } })).code, 421);
-  assert.equal((await status("/version", { headers: { Host: `localhost:${port}` } })).code, 200);
+  assert.equal((await status(`${home}version`, { headers: { Host: "elsewhere.example" } })).code, 421);
+  assert.equal((await status(`${home}version`, { headers: { Host: `localhost:${port}` } })).code, 200);
+});
+
+test("nobody holds it up, and what they send is bounded", async () => {
+  const slow = [];
+  for (let n = 0; n < 200; ++n) {
+    const socket = net.connect({ host: "127.0.0.1", port });
+    socket.on("error", () => {}); // it may be dropped
+    socket.write("GET / HT");
+    slow.push(socket);
+  }
+  assert.equal((await status(`${home}version`)).code, 200);
+  for (const socket of slow) socket.destroy();
+  const { code } = await status(`${home}version`, { headers: { Long: "x".repeat(12000) } });
+  assert.equal(code, 431);
 });
 
 test("it listens on the loopback interface alone", async () => {
@@ -96,7 +115,7 @@ test("it listens on the loopback interface alone", async () => {
 });
 
 test("the page shows the run and follows it", async () => {
-  const { page, faults } = await open(browser, `http://127.0.0.1:${port}/`);
+  const { page, faults } = await open(browser, `http://127.0.0.1:${port}${home}`);
   assert.match(await page.locator("header").innerText(), /live/i);
   assert.equal(await page.locator("#view").getAttribute("data-step"), "1500");
   reckon(runs.folder, "run", "live.toml", "--threads", "1", "--resume", "--steps", "3000");

@@ -39,7 +39,6 @@ class Reckon(CMakePackage):
     depends_on("libtiff@4.5:")
     depends_on("mpi", when="+mpi")
     depends_on("zoltan", when="+zoltan")
-    depends_on("cpp-httplib@0.11:", when="+report")
     depends_on("node-js@18:", when="+report", type="build")
     depends_on("npm", when="+report", type="build")
     depends_on("itk@5.2:", when="+ct")
