@@ -7,11 +7,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <string>
 
 #include "grains_parts.hpp"
 #include "progress.hpp"
+#include "reckon/core/utf8.hpp"
 #include "reckon/io/json_writer.hpp"
 #include "reckon/io/run_analysis.hpp"
 
@@ -61,6 +63,9 @@ std::string as_json(const RunAnalysis& done) {
   json.end();
   json.value("strain_index", done.strain_index.string());
   json.value("force_distribution", done.force_distribution.string());
+  json.begin_array("left_out");
+  for (const std::string& reason : done.left_out) json.value(reason);
+  json.end();
   json.end();
   return json.text();
 }
@@ -75,6 +80,9 @@ void analyse(const Options& options) {
     CountDisplay display{"saved times"};
     done = analyse_run(RunFolder{options.folder}, wanted,
                        [&](std::size_t made, std::size_t total) { display.show(made, total); });
+  }
+  for (const std::string& reason : done.left_out) {
+    std::fputs(printable(fmt::format("left out: {}\n", reason)).c_str(), stderr);
   }
   if (options.json) {
     fmt::print("{}", as_json(done));

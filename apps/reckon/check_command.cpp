@@ -10,6 +10,7 @@
 #include <string>
 
 #include "exit_codes.hpp"
+#include "reckon/core/utf8.hpp"
 #include "reckon/io/json_writer.hpp"
 #include "reckon/io/run_plan.hpp"
 #include "reckon/parallel/threads.hpp"
@@ -61,8 +62,8 @@ void check(const CheckOptions& options) {
     std::fputs(plan_json(plan).c_str(), stdout);
   } else {
     const std::string& title = input.scene.config.title;
-    fmt::print("{}: no faults{}\n{}", options.scene, title.empty() ? "" : " (" + title + ")",
-               plan_text(plan));
+    fmt::print("{}: no faults{}\n{}", printable(options.scene),
+               title.empty() ? "" : " (" + printable(title) + ")", plan_text(plan));
   }
   if (plan.trial_failure) throw CLI::RuntimeError{run_failed};
 }

@@ -11,6 +11,7 @@
 
 #include "exit_codes.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/core/utf8.hpp"
 #include "reckon/io/json_writer.hpp"
 #include "reckon/io/run_diff.hpp"
 
@@ -70,7 +71,7 @@ void diff(const DiffOptions& options) {
     comparison = compare_runs(RunFolder{options.first}, RunFolder{options.second});
   } catch (const Error& error) {
     // Like cmp and diff: 1 says that they differ, so trouble needs another number.
-    fmt::print(stderr, "reckon: error: {}\n", error.what());
+    fmt::print(stderr, "reckon: error: {}\n", printable(error.what()));
     throw CLI::RuntimeError{run_failed};
   }
   std::fputs((options.json ? as_json(comparison) : as_text(comparison)).c_str(), stdout);

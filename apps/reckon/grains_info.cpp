@@ -12,6 +12,7 @@
 
 #include "grains_parts.hpp"
 #include "reckon/avatar/library_file.hpp"
+#include "reckon/core/utf8.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/io/json_writer.hpp"
 
@@ -54,7 +55,7 @@ LengthUnit unit_for(const Entries& entries) {
 void print_table(const Entries& entries) {
   const LengthUnit unit = unit_for(entries);
   std::size_t width = 5;
-  for (const Entry& entry : entries) width = std::max(width, entry.shape.name.size());
+  for (const Entry& entry : entries) width = std::max(width, printable(entry.shape.name).size());
   fmt::print(
       "{:<{}} {:>10} {:>8} {:>8} {:>8} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>13} {:>9}\n",
       "name", width, fmt::format("vol {}^3", unit.name), fmt::format("d {}", unit.name),
@@ -68,10 +69,10 @@ void print_table(const Entries& entries) {
     fmt::print(
         "{:<{}} {:>10.4g} {:>8.4g} {:>8.4g} {:>8.4g} {:>8.4g} {:>6.3f} {:>6.3f} {:>6.3f} {:>6.3f} "
         "{:>6.3f} {:>6} {:>13} {:>9}\n",
-        shape.name, width, shape.mass.volume / (m * m * m), d.equivalent_diameter / m, d.length / m,
-        d.width / m, d.thickness / m, d.elongation, d.flatness, d.sphericity, d.convexity,
-        d.roundness, summary.outline.nodes, fmt::format("{}x{}x{}", dims[0], dims[1], dims[2]),
-        human_bytes(summary.outline.memory()));
+        printable(shape.name), width, shape.mass.volume / (m * m * m), d.equivalent_diameter / m,
+        d.length / m, d.width / m, d.thickness / m, d.elongation, d.flatness, d.sphericity,
+        d.convexity, d.roundness, summary.outline.nodes,
+        fmt::format("{}x{}x{}", dims[0], dims[1], dims[2]), human_bytes(summary.outline.memory()));
   }
 }
 

@@ -114,7 +114,7 @@ void compare(const Options& options) {
                  .reason = {},
                  .fix = "Name the folder of a run."}};
   }
-  const Checkpoint checkpoint = read_checkpoint(folder.checkpoint(steps.back()));
+  const Checkpoint checkpoint = read_checkpoint(folder.own(folder.checkpoint(steps.back())));
   const ShapeCatalog catalog = shapes_of(checkpoint, options.run);
   const auto before = read_placement(options.placement, catalog.size());
   const auto& after = checkpoint.state.grains;

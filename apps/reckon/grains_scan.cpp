@@ -61,7 +61,7 @@ Assembly open_run(const Options& options) {
                  .reason = steps.empty() ? "the run has none" : fmt::format("step {}", step),
                  .fix = "Its folder checkpoints lists them."}};
   }
-  const Checkpoint checkpoint = read_checkpoint(folder.checkpoint(step));
+  const Checkpoint checkpoint = read_checkpoint(folder.own(folder.checkpoint(step)));
   const auto catalog = std::make_shared<const ShapeCatalog>(shapes_of(checkpoint, options.source));
   return {fields_of(checkpoint).grains, [catalog](ShapeId shape) { return catalog->read(shape); }};
 }

@@ -11,6 +11,7 @@
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/avatar/shape_statistics.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/io/csv_text.hpp"
 #include "reckon/io/json_writer.hpp"
 
 namespace reckon::app {
@@ -52,7 +53,7 @@ std::string as_csv(const ShapeLibrary& library) {
   for (const ShapeMeasure& measure : shape_measures()) text += fmt::format(",{}", measure.name);
   text += '\n';
   for (const Shape& shape : library) {
-    text += shape.name;
+    text += csv_text(shape.name);
     for (const ShapeMeasure& measure : shape_measures()) {
       text += fmt::format(",{:.8g}", measure.of(shape));
     }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "reckon/core/utf8.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/report/paraview_state.hpp"
 
@@ -27,7 +28,7 @@ void add_paraview_command(CLI::App& app) {
   command->callback([folder] {
     const ParaviewState state = write_paraview_state(RunFolder{*folder});
     if (!state.missing.empty()) {
-      fmt::print("Grains will be spheres of equal volume: {}\n", state.missing);
+      fmt::print("Grains will be spheres of equal volume: {}\n", printable(state.missing));
     }
     fmt::print("{}: {} shapes; draw the run with\n  paraview --script={}\n", state.script.string(),
                state.shapes, shell_word(state.script.string()));

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "progress.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/core/utf8.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/report/page.hpp"
 
@@ -36,11 +38,15 @@ void report(const Options& options) {
     fmt::print("{}: {} of {} saved times (--frames)\n", run.root().string(), shown, saved);
   }
   std::string page;
+  std::vector<std::string> notes;
   {
     CountDisplay display{"saved times"};
-    page = report_page(runs, options.limits,
-                       [&](std::size_t done, std::size_t total) { display.show(done, total); });
+    page = report_page(
+        runs, options.limits,
+        [&](std::size_t done, std::size_t total) { display.show(done, total); },
+        [&](const std::string& note) { notes.push_back(note); });
   }
+  for (const std::string& note : notes) std::fputs((printable(note) + '\n').c_str(), stderr);
   write_file(output, page);
   fmt::print("{}: {}; open it in a browser\n", output.string(),
              human_bytes(std::filesystem::file_size(output)));

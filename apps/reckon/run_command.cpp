@@ -17,6 +17,7 @@
 
 #include "exit_codes.hpp"
 #include "progress.hpp"
+#include "reckon/core/utf8.hpp"
 #include "reckon/io/history.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/io/json_writer.hpp"
@@ -165,13 +166,13 @@ void run(const Options& options, const Communicator& ranks, bool launched) {
   hooks.note = [&](const std::string& text) {
     if (quiet) return;
     display.clear();
-    say(text + '\n');
+    say(printable(text) + '\n');
   };
   watch_stop_signals();
   if (!quiet) {
     const std::string& title = input.scene.config.title;
-    say(fmt::format("{} -> {}\n", title.empty() ? options.scene : title,
-                    run_options.folder.string()));
+    say(printable(fmt::format("{} -> {}\n", title.empty() ? options.scene : title,
+                              run_options.folder.string())));
   }
   RunReport report;
   try {
@@ -199,7 +200,7 @@ void run(const Options& options, const Communicator& ranks, bool launched) {
   if (report.end == RunEnd::nothing_to_do) {
     say("the run is complete already: nothing to do\n");
   } else {
-    say(result_text(report, run_options.folder));
+    say(printable(result_text(report, run_options.folder)));
   }
 }
 

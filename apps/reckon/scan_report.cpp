@@ -12,6 +12,8 @@
 
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/core/utf8.hpp"
+#include "reckon/io/csv_text.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/io/placement_table.hpp"
 #include "reckon/scan/scan_truth.hpp"
@@ -28,11 +30,12 @@ void write_quality(const std::filesystem::path& file, const ScannedAssembly& ass
       "surface_distance_m,area_kept,neighbours,contacts,deepest_overlap_m\n";
   for (std::size_t n = 0; n < assembly.quality.size(); ++n) {
     const AvatarQuality& q = assembly.quality[n];
-    text += fmt::format(
-        "{},{},{},{},{:.6f},{:.6f},{:.4f},{:.6f},{:.6g},{:.5f},{},{},{:.6g}\n",
-        assembly.shapes[n].entry().name, q.given_label == 0 ? q.label : q.given_label, q.voxels,
-        q.volume, q.volume / q.label_volume, q.volume / q.gray_volume, q.level, q.gradient_error,
-        q.surface_distance, q.area_kept, q.neighbours, q.contacts, q.deepest_overlap);
+    text +=
+        fmt::format("{},{},{},{},{:.6f},{:.6f},{:.4f},{:.6f},{:.6g},{:.5f},{},{},{:.6g}\n",
+                    csv_text(assembly.shapes[n].entry().name),
+                    q.given_label == 0 ? q.label : q.given_label, q.voxels, q.volume,
+                    q.volume / q.label_volume, q.volume / q.gray_volume, q.level, q.gradient_error,
+                    q.surface_distance, q.area_kept, q.neighbours, q.contacts, q.deepest_overlap);
   }
   write_file(file, text);
 }
@@ -187,7 +190,8 @@ void ScanReport::avatars(const ScannedAssembly& assembly, double voxel) {
   fmt::print("avatars    {} in {} ({:.3g} a second), mean diameter {:.4g} voxels\n",
              human_count(assembly.shapes.size()), human_duration(seconds),
              static_cast<double>(assembly.shapes.size()) / seconds, diameter / voxel);
-  for (const std::string& reason : assembly.refused) fmt::print("left out   {}\n", reason);
+  for (const std::string& reason : assembly.refused)
+    fmt::print("left out   {}\n", printable(reason));
   fmt::print("quality    volume {:.3f} % off the gray values'; | |grad phi| - 1 | {:.4f}\n",
              100 * drift, gradient);
   fmt::print("contacts   {} touch; {} pairs overlap, by {:.3f} voxels at most\n",

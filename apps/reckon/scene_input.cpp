@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "reckon/core/utf8.hpp"
 #include "reckon/io/scene_loader.hpp"
 
 namespace reckon::app {
@@ -27,7 +28,7 @@ void print_faults(const std::string& file, const SceneReading& reading) {
     block += "  " + describe(reading.faults[n], file) + '\n';
   }
   if (count > most) block += fmt::format("  and {} more\n", count - most);
-  std::fputs(block.c_str(), stderr);
+  std::fputs(printable(block).c_str(), stderr);
 }
 
 }  // namespace reckon::app

@@ -16,6 +16,7 @@
 
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/core/write_failure.hpp"
 
 namespace reckon {
 namespace {
@@ -119,7 +120,7 @@ HistoryFile::HistoryFile(std::filesystem::path path, std::vector<Quantity> quant
     : path_{std::move(path)}, quantities_{std::move(quantities)} {
   const std::string header = history_header(quantities_) + '\n';
   std::string content = header;
-  if (keep) {
+  if (keep && std::filesystem::exists(path_)) {
     const std::vector<std::string> lines = complete_lines(read_file(path_));
     if (lines.empty() || lines.front() + '\n' != header) {
       fail(path_, "has other columns than this run",
@@ -131,7 +132,7 @@ HistoryFile::HistoryFile(std::filesystem::path path, std::vector<Quantity> quant
   }
   write_file(path_, content);
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (descriptor_ < 0) fail(path_, "cannot be opened", std::generic_category().message(errno));
+  if (descriptor_ < 0) throw_write_failure(path_, errno, "cannot be opened");
 }
 
 HistoryFile::~HistoryFile() { ::close(descriptor_); }
@@ -140,14 +141,13 @@ void HistoryFile::append(const HistoryRow& row) {
   const std::string line = history_row(quantities_, row) + '\n';
   const ssize_t written = ::write(descriptor_, line.data(), line.size());
   if (written != static_cast<ssize_t>(line.size())) {
-    fail(path_, "a row could not be written",
-         written < 0 ? std::generic_category().message(errno) : "the disk is full");
+    throw_write_failure(path_, written < 0 ? errno : ENOSPC, "a row could not be written");
   }
 }
 
 void HistoryFile::sync() const {
   if (::fsync(descriptor_) != 0) {
-    fail(path_, "could not be written", std::generic_category().message(errno));
+    throw_write_failure(path_, errno, "could not be written");
   }
 }
 

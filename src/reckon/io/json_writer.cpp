@@ -6,11 +6,13 @@
 
 #include <cmath>
 
+#include "reckon/core/utf8.hpp"
+
 namespace reckon {
 
 std::string json_text(std::string_view text) {
   std::string out = "\"";
-  for (const char letter : text) {
+  for (const char letter : valid_utf8(text)) {
     const auto code = static_cast<unsigned char>(letter);
     if (letter == '"' || letter == '\\') {
       out += '\\';

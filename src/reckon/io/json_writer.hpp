@@ -50,7 +50,8 @@ class JsonWriter {
   bool first_{true};           // whether the next thing is the first of its parent
 };
 
-/// A JSON string with its quotes; TOML reads it as well.
+/// A JSON string with its quotes, in UTF-8 whatever the text is (valid_utf8); TOML reads it as
+/// well.
 [[nodiscard]] std::string json_text(std::string_view text);
 
 }  // namespace reckon

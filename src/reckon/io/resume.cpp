@@ -76,7 +76,7 @@ std::optional<Checkpoint> latest_checkpoint(const RunFolder& folder,
   for (const std::uint64_t step : steps) {
     const std::filesystem::path file = folder.checkpoint(step);
     try {
-      return read_checkpoint(file);
+      return read_checkpoint(folder.own(file));
     } catch (const Error& error) {
       std::filesystem::rename(file, file.string() + ".damaged");
       if (note) note(fmt::format("{}. It is renamed to end in .damaged", error.what()));

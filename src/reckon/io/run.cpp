@@ -15,6 +15,7 @@
 
 #include "reckon/analysis/sample.hpp"
 #include "reckon/core/build_info.hpp"
+#include "reckon/core/failure_text.hpp"
 #include "reckon/domain/packing.hpp"
 #include "reckon/io/node_spacing.hpp"
 #include "reckon/io/output_schedule.hpp"
@@ -103,10 +104,8 @@ class Session {
                                        : RunEnd::complete;
       }
       return finish(end);
-    } catch (const Error& error) {
-      throw fail(error.text());
-    } catch (const std::exception& error) {  // no memory, a file system that refuses
-      throw fail({.place = {}, .problem = error.what(), .reason = {}, .fix = {}});
+    } catch (const std::exception& error) {
+      throw fail(failure_text(error));
     }
   }
 

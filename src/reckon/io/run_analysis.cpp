@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "reckon/analysis/force_distribution.hpp"
@@ -32,14 +35,33 @@ namespace {
 
 /// The last step of the stage before the last one; 0 without stages.
 std::uint64_t start_of_last_stage(const RunFolder& folder) {
-  const HistoryTable table = read_history(folder.history());
+  const HistoryTable table = read_history(folder.own(folder.history()));
   const auto stage = std::find(table.header.begin(), table.header.end(), "stage");
   if (stage == table.header.end() || table.rows.empty()) return 0;
   const auto column = static_cast<std::size_t>(stage - table.header.begin());
   const auto before = std::find_if(table.rows.rbegin(), table.rows.rend(), [&](const auto& row) {
     return row[column] != table.rows.back()[column];
   });
-  return before == table.rows.rend() ? 0 : std::stoull(before->front());
+  if (before == table.rows.rend()) return 0;
+  const std::string& cell = before->front();
+  std::uint64_t step = 0;
+  const auto [end, code] = std::from_chars(cell.data(), cell.data() + cell.size(), step);
+  if (code == std::errc{} && end == cell.data() + cell.size()) return step;
+  throw Error{{.place = folder.history().string(),
+               .problem = fmt::format("\"{}\" is not a step", cell),
+               .reason = "each row begins with one",
+               .fix = "Put a good copy back, or give --from."}};
+}
+
+/// A step's fields; nothing where they cannot be read, which `done` then says.
+std::optional<SavedFields> readable_fields(const RunFolder& folder, std::uint64_t step,
+                                           RunAnalysis& done) {
+  try {
+    return read_fields(folder, step);
+  } catch (const Error& error) {
+    done.left_out.emplace_back(error.what());
+    return std::nullopt;
+  }
 }
 
 std::uint64_t first_step(const RunFolder& folder, const AnalysisOptions& options,
@@ -167,7 +189,14 @@ RunAnalysis analyse_run(
   if (saved.empty()) refuse(folder, "no fields were saved here", "Name the folder of a run.");
   RunAnalysis done;
   done.from = first_step(folder, options, saved);
-  const SavedFields start = read_fields(folder, done.from);
+  std::optional<SavedFields> first = readable_fields(folder, done.from, done);
+  for (const std::uint64_t step : saved) {
+    if (first || options.from || step <= done.from) continue;
+    done.from = step;
+    first = readable_fields(folder, step, done);
+  }
+  if (!first) refuse(folder, done.left_out.back(), "Give another step with --from.");
+  const SavedFields& start = *first;
   const std::vector<Vec3> before = places(start);
   double diameter = 0;
   for (const SavedGrain& grain : start.grains) {
@@ -182,7 +211,9 @@ RunAnalysis analyse_run(
   std::vector<PvdEntry> entries;
   for (const std::uint64_t step : saved) {
     if (step <= done.from) continue;
-    const SavedFields now = read_fields(folder, step);
+    const std::optional<SavedFields> read = readable_fields(folder, step, done);
+    if (!read) continue;
+    const SavedFields& now = *read;
     const bool same =
         std::equal(start.grains.begin(), start.grains.end(), now.grains.begin(), now.grains.end(),
                    [](const SavedGrain& a, const SavedGrain& b) { return a.id == b.id; });

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "reckon/io/run_folder.hpp"
@@ -32,11 +33,13 @@ struct RunAnalysis {
   std::vector<StrainSummary> strains;
   std::filesystem::path strain_index;        ///< strain.pvd
   std::filesystem::path force_distribution;  ///< force_distribution.csv; empty without contacts
+  std::vector<std::string> left_out;         ///< saved steps that cannot be read, with the reason
 };
 
 /// Looks at the saved fields of a run. Writes, per saved step after `from`, the local strain around
 /// each grain and how far it turned, for ParaView, and for every saved step from there on the
-/// distribution of the forces between grains. Throws Error where the run has not saved two steps,
+/// distribution of the forces between grains. Steps whose files cannot be read are left out, the
+/// first of the last stage too. Throws Error where the run has not saved two steps,
 /// not that of `from`, or other grains at one than at the other. `progressed` is told of the steps.
 RunAnalysis analyse_run(
     const RunFolder& folder, const AnalysisOptions& options,

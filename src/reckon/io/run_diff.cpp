@@ -117,8 +117,8 @@ std::optional<Difference> column_difference(const CheckpointColumn& column,
 }
 
 RunComparison::Part compare_histories(const RunFolder& a, const RunFolder& b) {
-  const HistoryTable first = read_history(a.history());
-  const HistoryTable second = read_history(b.history());
+  const HistoryTable first = read_history(a.own(a.history()));
+  const HistoryTable second = read_history(b.own(b.history()));
   RunComparison::Part part{
       "history", fmt::format("{} and {} rows", first.rows.size(), second.rows.size()), {}};
   if (first.header != second.header) {
@@ -224,10 +224,11 @@ RunComparison compare_runs(const RunFolder& a, const RunFolder& b) {
   for (const std::uint64_t step : common) {
     if (step == first.back() && step == second.back()) continue;
     comparison.parts.push_back(compare_checkpoints(fmt::format("checkpoint of step {}", step),
-                                                   a.checkpoint(step), b.checkpoint(step)));
+                                                   a.own(a.checkpoint(step)),
+                                                   b.own(b.checkpoint(step))));
   }
-  comparison.parts.push_back(
-      compare_checkpoints("final state", a.checkpoint(first.back()), b.checkpoint(second.back())));
+  comparison.parts.push_back(compare_checkpoints("final state", a.own(a.checkpoint(first.back())),
+                                                 b.own(b.checkpoint(second.back()))));
   return comparison;
 }
 

@@ -37,6 +37,7 @@ RunFiles::RunFiles(const SceneReading& reading, const LoadedScene& scene,
   outputs_.emplace(folder_, scene, prepared,
                    OutputSchedule{scene.config, checkpoint_.state.stage_starts},
                    resumed_ ? std::optional{first_step} : std::nullopt);
+  if (const std::string lost = outputs_->lost_rows(); !lost.empty()) note(lost);
   record_.started = utc_now();
   record_.scene = scene.config.title;
   record_.grains = scene.grains.size();
@@ -118,7 +119,7 @@ void RunFiles::write_record(const std::string& status, const RunProgress& progre
 }
 
 bool RunFiles::record_says_ended() const {
-  const std::string status = recorded_status(folder_.json());
+  const std::string status = recorded_status(folder_.own(folder_.json()));
   return status == "complete" || status == "at rest";
 }
 
@@ -143,8 +144,9 @@ ErrorText RunFiles::fail(ErrorText text, const RunProgress& progress) {
   record_.wall_seconds = progress.wall_seconds;
   try {
     write_run_record(folder_.json(), record_);
-  } catch (const Error&) {
-    // The reason for the failure is what counts; a full disk may be that very reason.
+  } catch (const std::exception&) {
+    // A full disk may be the very reason for the failure, which is what is told.
+    overwrite_run_record(folder_.json(), record_);
   }
   return text;
 }

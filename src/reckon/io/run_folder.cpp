@@ -14,6 +14,8 @@
 #include <system_error>
 
 #include "reckon/core/error.hpp"
+#include "reckon/core/file.hpp"
+#include "reckon/core/write_failure.hpp"
 
 namespace reckon {
 namespace {
@@ -43,11 +45,35 @@ std::vector<std::uint64_t> numbered_files(const std::filesystem::path& folder,
 void make_folder(const std::filesystem::path& folder) {
   std::error_code code;
   std::filesystem::create_directories(folder, code);
-  if (!code) return;
-  throw Error{{.place = folder.string(),
-               .problem = "this folder cannot be made",
-               .reason = code.message(),
-               .fix = "Give another one with --out."}};
+  if (code) throw_write_failure(folder, code.value(), "this folder cannot be made");
+}
+
+bool is_link(const std::filesystem::path& path) {
+  std::error_code code;
+  return std::filesystem::is_symlink(path, code);
+}
+
+/// Whether a run has files of this name, in its folder itself or in one of those inside.
+bool is_name_of_run(bool at_top, std::string_view name) {
+  constexpr std::array at_top_names{
+      "scene.toml",       "scene_resolved.toml",   "history.csv", "run.json",
+      "performance.json", "report.html",           "grains.pvd",  "contacts.pvd",
+      "surfaces.pvd",     "membrane.pvd",          "walls.pvd",   "cell.pvd",
+      "strain.pvd",       "force_distribution.csv"};
+  if (at_top) {
+    return std::find(at_top_names.begin(), at_top_names.end(), name) != at_top_names.end();
+  }
+  const auto is_numbered = [&](std::string_view prefix, std::string_view suffix) {
+    if (!name.starts_with(prefix) || !name.ends_with(suffix)) return false;
+    if (name.size() <= prefix.size() + suffix.size()) return false;
+    const std::string_view middle =
+        name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
+    return middle.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  return is_numbered("step_", ".h5") ||
+         std::any_of(field_kinds.begin(), field_kinds.end(), [&](const char* kind) {
+           return is_numbered(fmt::format("{}_", kind), ".vtp");
+         });
 }
 
 }  // namespace
@@ -94,30 +120,79 @@ void RunFolder::create_subfolders() const {
   make_folder(root_ / "checkpoints");
 }
 
+std::filesystem::path RunFolder::own(std::filesystem::path file) const {
+  namespace fs = std::filesystem;
+  std::error_code code;
+  const fs::file_status status = fs::symlink_status(file, code);
+  if (!fs::exists(status) || fs::is_regular_file(status)) return file;
+  const auto refuse = [&](const char* problem) {
+    throw Error{{.place = file.string(),
+                 .problem = problem,
+                 .reason = "a run writes plain files",
+                 .fix = "Put the file itself there, or remove it."}};
+  };
+  if (!fs::is_symlink(status)) refuse("this is not a file that can be read");
+  const fs::path target = fs::canonical(file, code);
+  if (code) refuse("this is a link that leads nowhere");
+  if (!fs::is_regular_file(target, code)) refuse("this is a link to what is not a file");
+  const fs::path inside = target.lexically_relative(fs::canonical(root_, code));
+  if (code || inside.empty() || *inside.begin() == "..") {
+    refuse("this is a link to a file outside the run's folder");
+  }
+  return file;
+}
+
+void RunFolder::remove_field(std::string_view kind, std::uint64_t step) const {
+  std::error_code code;
+  if (is_link(root_ / "fields")) return;
+  std::filesystem::remove(root_ / field_name(kind, step), code);
+}
+
 void RunFolder::remove_run() const {
   remove_leftovers();
+  for (const char* name : {"fields", "checkpoints"}) {
+    std::error_code code;
+    if (is_link(root_ / name)) std::filesystem::remove(root_ / name, code);
+  }
   for (const std::uint64_t step : checkpoint_steps()) std::filesystem::remove(checkpoint(step));
   for (const char* kind : field_kinds) {
-    for (const std::uint64_t step : field_steps(kind)) {
-      std::filesystem::remove(root_ / field_name(kind, step));
-    }
+    for (const std::uint64_t step : field_steps(kind)) remove_field(kind, step);
     std::filesystem::remove(index(kind));
   }
   for (const auto& file : {scene(), resolved(), history(), log(), json(), performance(), report(),
                            root_ / "force_distribution.csv"}) {
     std::filesystem::remove(file);
   }
-  std::filesystem::remove_all(paraview());
+  remove_paraview();
+}
+
+void RunFolder::remove_paraview() const {
+  std::error_code code;
+  if (is_link(paraview())) return;
+  for (const char* name : {"state.py", "shapes.vtm"}) {
+    std::filesystem::remove(paraview() / name, code);
+  }
+  const std::filesystem::path shapes = paraview() / "shapes";
+  if (!is_link(shapes)) {
+    for (const std::uint64_t shape : numbered_files(shapes, "", ".vtp")) {
+      std::filesystem::remove(shapes / fmt::format("{:05}.vtp", shape), code);
+    }
+    std::filesystem::remove(shapes, code);  // only where they are empty
+  }
+  std::filesystem::remove(paraview(), code);
 }
 
 void RunFolder::remove_leftovers() const {
   for (const auto& folder : {root_, root_ / "fields", root_ / "checkpoints"}) {
     std::error_code code;
+    if (folder != root_ && is_link(folder)) continue;
     std::vector<std::filesystem::path> leftovers;
     for (const auto& entry : std::filesystem::directory_iterator{folder, code}) {
-      if (entry.path().extension() == ".tmp") leftovers.push_back(entry.path());
+      const std::string name = entry.path().filename().string();
+      const auto target = target_of_temporary(name);
+      if (target && is_name_of_run(folder == root_, *target)) leftovers.push_back(entry.path());
     }
-    for (const auto& file : leftovers) std::filesystem::remove(file);
+    for (const auto& file : leftovers) std::filesystem::remove(file, code);
   }
 }
 

@@ -46,6 +46,12 @@ class RunFolder {
   /// Steps of all field files of a kind, ascending.
   [[nodiscard]] std::vector<std::uint64_t> field_steps(std::string_view kind) const;
 
+  /// The same file, to be read. Throws Error when it is there and is no plain file: a run writes
+  /// nothing else, one would wait for ever at a pipe, and a link that leads out of the folder may
+  /// show what is nobody's business. (`fields` and `checkpoints` themselves may be links to another
+  /// disk.)
+  [[nodiscard]] std::filesystem::path own(std::filesystem::path file) const;
+
   /// Whether it holds anything at all, empty folders aside.
   [[nodiscard]] bool has_content() const;
   /// Whether a run was begun in it.
@@ -55,10 +61,15 @@ class RunFolder {
   void create() const;
   /// Makes what is to hold the files in it.
   void create_subfolders() const;
-  /// Removes the files of a run, and nothing else.
+  /// Removes the files of a run, and nothing else: no file of another name, and none in a folder
+  /// that a link points to. The link itself is removed.
   void remove_run() const;
-  /// Removes the temporary files that a killed run may have left.
+  /// Removes what write_paraview_state wrote, and nothing else.
+  void remove_paraview() const;
+  /// Removes the temporary files of a run's files, which a killed run may have left.
   void remove_leftovers() const;
+  /// Removes a saved file, unless it lies behind a link.
+  void remove_field(std::string_view kind, std::uint64_t step) const;
 
  private:
   std::filesystem::path root_;

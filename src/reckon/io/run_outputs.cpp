@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/io/run_outputs.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <functional>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace reckon {
@@ -16,6 +20,28 @@ std::function<bool(std::uint64_t)> rows_to_keep(const OutputSchedule& schedule,
   return [schedule, at = *resumed_at](std::uint64_t step) {
     return step <= at && schedule.history_due(step);
   };
+}
+
+/// The steps of rows that are due up to `resumed_at` and are not in the table, in words.
+std::string rows_lost(const HistoryTable& table, const OutputSchedule& schedule,
+                      std::uint64_t resumed_at) {
+  constexpr std::size_t named = 5;
+  std::string steps;
+  std::size_t lost = 0;
+  std::set<std::string> known;
+  for (const auto& row : table.rows) known.insert(row.front());
+  for (std::uint64_t step = 0; step <= resumed_at; ++step) {
+    if (!schedule.history_due(step)) continue;
+    const std::string word = fmt::format("{}", step);
+    if (known.contains(word)) continue;
+    if (++lost <= named) steps += (steps.empty() ? "" : ", ") + word;
+  }
+  if (lost == 0) return {};
+  if (lost > named) steps += ", ...";
+  return fmt::format(
+      "history.csv lacks {} row{} from before the checkpoint (step{} {}): lost by a full disk or a "
+      "power failure, they cannot be made again without --overwrite",
+      lost, lost == 1 ? "" : "s", lost == 1 ? "" : "s", steps);
 }
 
 }  // namespace
@@ -34,6 +60,7 @@ RunOutputs::RunOutputs(RunFolder folder, const LoadedScene& scene, const Prepare
                rows_to_keep(schedule_, resumed_at)} {
   if (prepared.setup.membrane) mould_ = prepared.setup.membrane->mould;
   if (!resumed_at) return;
+  lost_rows_ = rows_lost(read_history(folder_.history()), schedule_, *resumed_at);
   take_over("grains", *resumed_at, grains_);
   take_over("contacts", *resumed_at, contacts_);
   take_over("surfaces", *resumed_at, surfaces_);
@@ -95,7 +122,7 @@ void RunOutputs::take_over(std::string_view kind, std::uint64_t resumed_at,
     if (step <= resumed_at && schedule_.fields_due(step)) {
       entries.push_back({static_cast<double>(step) * time_step_, name, {}});
     } else {
-      std::filesystem::remove(folder_.root() / name);
+      folder_.remove_field(kind, step);
     }
   }
   if (!steps.empty()) write_pvd(folder_.index(kind), entries);

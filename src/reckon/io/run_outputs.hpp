@@ -26,6 +26,9 @@ class RunOutputs {
              OutputSchedule schedule, std::optional<std::uint64_t> resumed_at);
 
   void append_history(const HistoryRow& row);
+  /// Which rows up to the step of resuming are not in the history, in words; empty: none lacks. A
+  /// full disk or a power failure may have kept them.
+  [[nodiscard]] const std::string& lost_rows() const { return lost_rows_; }
   /// See HistoryFile::sync.
   void sync_history() const { history_.sync(); }
   void write_fields(const FieldsAtStep& fields);
@@ -48,6 +51,7 @@ class RunOutputs {
   double density_;
   double time_step_;
   HistoryFile history_;
+  std::string lost_rows_;
   std::vector<PvdEntry> grains_;
   std::vector<PvdEntry> contacts_;
   std::vector<PvdEntry> surfaces_;

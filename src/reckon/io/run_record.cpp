@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <ctime>
+#include <filesystem>
 #include <regex>
 #include <system_error>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/peak_memory.hpp"
+#include "reckon/core/utf8.hpp"
 #include "reckon/io/json_writer.hpp"
 #include "reckon/parallel/threads.hpp"
 
@@ -43,13 +45,15 @@ RunLog::~RunLog() { ::close(descriptor_); }
 
 void RunLog::write(std::string_view line) const {
   std::string text = utc_now() + "  ";
-  text += line;
+  text += printable(line);
   text += '\n';
   // A log that cannot grow must not end a run of days: the tables report a full disk.
   [[maybe_unused]] const ssize_t written = ::write(descriptor_, text.data(), text.size());
 }
 
-void write_run_record(const std::filesystem::path& path, const RunRecord& record) {
+namespace {
+
+std::string record_text(const RunRecord& record) {
   const BuildInfo build = build_info();
   char host[256] = "";
   if (::gethostname(host, sizeof host - 1) != 0) host[0] = '\0';
@@ -85,7 +89,27 @@ void write_run_record(const std::filesystem::path& path, const RunRecord& record
   json.value("flags", build.flags);
   json.end();
   json.end();
-  write_file(path, json.text());
+  return json.text();
+}
+
+}  // namespace
+
+void write_run_record(const std::filesystem::path& path, const RunRecord& record) {
+  write_file(path, record_text(record));
+}
+
+void overwrite_run_record(const std::filesystem::path& path, const RunRecord& record) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, code))) return;
+  const std::string text = record_text(record);
+  try {
+    OpenFile file{path, O_WRONLY};
+    file.write(0, text);
+    file.close();
+    std::filesystem::resize_file(path, text.size());
+  } catch (const std::exception&) {
+    std::filesystem::remove(path, code);
+  }
 }
 
 std::string recorded_status(const std::filesystem::path& path) {

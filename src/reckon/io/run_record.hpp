@@ -46,6 +46,9 @@ struct RunRecord {
 };
 
 void write_run_record(const std::filesystem::path& path, const RunRecord& record);
+/// Likewise where there may be no room for a new file: over the content of the old one, which has
+/// room of its own, or else the old one, which is no longer true, is removed.
+void overwrite_run_record(const std::filesystem::path& path, const RunRecord& record);
 
 /// The status in a run.json; empty where there is none.
 [[nodiscard]] std::string recorded_status(const std::filesystem::path& path);

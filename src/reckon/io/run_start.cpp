@@ -40,11 +40,21 @@ RunStart ready_folder(const RunFolder& folder, const RunOptions& options, Checkp
   const std::string place = folder.root().string();
   if (options.resume && folder.holds_run()) {
     folder.remove_leftovers();
+    for (const auto& file : {folder.history(), folder.log(), folder.json()})
+      static_cast<void>(folder.own(file));
+    const bool has_checkpoints = !folder.checkpoint_steps().empty();
     std::optional<Checkpoint> found = latest_checkpoint(folder, note);
     if (found) {
       require_same_run(*found, first, place);
       found->scene = std::move(first.scene);  // what is free to change may have changed
       return {std::move(*found), true};
+    }
+    if (has_checkpoints) {
+      throw Error{{.place = place,
+                   .problem = "there is no good checkpoint to resume from",
+                   .reason = "all of them are damaged; they are renamed to end in .damaged",
+                   .fix = "Put a good copy back, or start anew with --overwrite, which removes the "
+                          "run's tables and fields."}};
     }
     if (note) note("there is no checkpoint to resume from: the run starts anew");
     folder.remove_run();

@@ -77,7 +77,7 @@ SurfaceFiles write_run_surfaces(
   std::size_t done = 0;
   double density = 0;
   for (const std::uint64_t at : steps) {
-    Checkpoint checkpoint = read_checkpoint(folder.checkpoint(at));
+    Checkpoint checkpoint = read_checkpoint(folder.own(folder.checkpoint(at)));
     if (surfaces.empty()) {
       const ShapeCatalog shapes = shapes_of(checkpoint, place);
       surfaces = surface_meshes(checkpoint.state.grains,

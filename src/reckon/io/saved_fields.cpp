@@ -165,13 +165,16 @@ void read_cell(const std::filesystem::path& path, SavedFields& fields) {
 SavedFields read_fields(const RunFolder& folder, std::uint64_t step) {
   SavedFields fields;
   fields.step = step;
-  read_grains(folder.root() / RunFolder::field_name("grains", step), fields);
-  const std::filesystem::path contacts = folder.root() / RunFolder::field_name("contacts", step);
+  const auto file = [&](const char* kind) {
+    return folder.own(folder.root() / RunFolder::field_name(kind, step));
+  };
+  read_grains(file("grains"), fields);
+  const std::filesystem::path contacts = file("contacts");
   fields.has_contacts = std::filesystem::exists(contacts);
   if (fields.has_contacts) read_contacts(contacts, fields);
-  const std::filesystem::path membrane = folder.root() / RunFolder::field_name("membrane", step);
+  const std::filesystem::path membrane = file("membrane");
   if (std::filesystem::exists(membrane)) read_membrane(membrane, fields);
-  const std::filesystem::path cell = folder.root() / RunFolder::field_name("cell", step);
+  const std::filesystem::path cell = file("cell");
   if (std::filesystem::exists(cell)) read_cell(cell, fields);
   return fields;
 }

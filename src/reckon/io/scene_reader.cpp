@@ -122,18 +122,19 @@ class Reader {
     const std::filesystem::path path = directory_ / written;
     std::error_code code;
     if (!std::filesystem::exists(path, code)) {
-      return fault(key, node, fmt::format("there is no file \"{}\"", path.string()),
-                   "Paths are relative to the folder of the scene.");
+      return file_fault(key, node, fmt::format("there is no file \"{}\"", path.string()),
+                        "Paths are relative to the folder of the scene.");
     }
     if (std::filesystem::is_directory(path, code)) {
       if (key.folder_allowed) {
         value = path.lexically_normal().string();
         return;
       }
-      return fault(key, node, fmt::format("\"{}\" is a folder, not a file", path.string()));
+      return file_fault(key, node, fmt::format("\"{}\" is a folder, not a file", path.string()));
     }
     if (!std::ifstream{path}) {
-      return fault(key, node, fmt::format("\"{}\" cannot be opened for reading", path.string()));
+      return file_fault(key, node,
+                        fmt::format("\"{}\" cannot be opened for reading", path.string()));
     }
     value = path.lexically_normal().string();
   }
@@ -295,6 +296,12 @@ class Reader {
              std::string fix = {}) {
     frames_.back().faulty.emplace(key.name);
     fault_at(position_of(node.source()), path_of(key.name), std::move(problem), std::move(fix));
+  }
+
+  void file_fault(const SceneKey& key, const toml::node& node, std::string problem,
+                  std::string fix = {}) {
+    fault(key, node, std::move(problem), std::move(fix));
+    reading_.faults.back().is_of_other_file = true;
   }
 
   /// The value of a key, or null. A required key that is absent is a fault.

@@ -27,6 +27,7 @@ struct SceneFault {
   std::string key;      ///< e.g. "wall[0].plane.normal"; empty for faults of TOML's own syntax
   std::string problem;  ///< what is wrong, in one clause
   std::string fix;      ///< what to do about it, as a sentence; may be empty
+  bool is_of_other_file{false};  ///< the scene is right, but a file that it names cannot be read
 };
 
 /// "scene.toml:12:5: contact.law: problem. Fix."

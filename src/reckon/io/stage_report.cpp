@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "reckon/analysis/shear_curve.hpp"
+#include "reckon/core/error.hpp"
 
 namespace reckon {
 namespace {
@@ -25,7 +26,14 @@ class Columns {
 
   [[nodiscard]] bool has(std::string_view name) const { return place(name).has_value(); }
   [[nodiscard]] double at(std::size_t row, std::string_view name) const {
-    const std::string& cell = history_.rows[row][*place(name)];
+    const std::optional<std::size_t> column = place(name);
+    if (!column) {
+      throw Error{{.place = "history.csv",
+                   .problem = fmt::format("has no column \"{}\"", name),
+                   .reason = "it was changed, or written by another version of reckon",
+                   .fix = "Put its header back: docs/reference/history.md lists the columns."}};
+    }
+    const std::string& cell = history_.rows[row][*column];
     double value = std::numeric_limits<double>::quiet_NaN();
     std::from_chars(cell.data(), cell.data() + cell.size(), value);
     return value;
@@ -150,8 +158,8 @@ std::string stage_note(const std::string& name, std::uint64_t steps, bool in_tim
 }
 
 std::vector<StageFinding> stage_findings(const SceneConfig& scene, const HistoryTable& history) {
+  if (scene.stages.empty() || !scene.output.sample) return {};
   const Columns columns{history};
-  if (!columns.has("stage") || !columns.has("inertial_number")) return {};
   std::vector<StageFinding> findings;
   for (std::size_t n = 0; n < scene.stages.size(); ++n) {
     const auto& controls = scene.stages[n].controls;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "reckon/core/error.hpp"
 #include "reckon/report/piece.hpp"
 
@@ -39,9 +41,9 @@ void add_piece(std::string& page, const std::string& name, const std::string& pi
 
 }  // namespace
 
-std::string report_page(
-    std::span<const RunFolder> runs, const PageLimits& limits,
-    const std::function<void(std::size_t done, std::size_t total)>& progressed) {
+std::string report_page(std::span<const RunFolder> runs, const PageLimits& limits,
+                        const std::function<void(std::size_t done, std::size_t total)>& progressed,
+                        const std::function<void(const std::string&)>& note) {
   const Halves around = halves();
   std::string page{around.before};
   std::size_t total = 0;
@@ -49,11 +51,20 @@ std::string report_page(
   std::size_t done = 0;
   for (std::size_t run = 0; run < runs.size(); ++run) {
     RunPieces pieces{runs[run], limits};
-    add_piece(page, fmt::format("{}/head", run), pieces.head());
+    std::string frames;
+    std::vector<std::uint64_t> left_out;
+    static_cast<void>(scene_of_run(runs[run]));  // before the long work
     for (const std::uint64_t step : pieces.frame_steps()) {
-      add_piece(page, fmt::format("{}/frame/{}", run, step), pieces.frame(step));
+      try {
+        add_piece(frames, fmt::format("{}/frame/{}", run, step), pieces.frame(step));
+      } catch (const Error& error) {
+        left_out.push_back(step);
+        if (note) note(fmt::format("left out: {}", error.what()));
+      }
       if (progressed) progressed(++done, total);
     }
+    add_piece(page, fmt::format("{}/head", run), pieces.head(left_out));
+    page += frames;
   }
   page += around.after;
   return page;

@@ -22,7 +22,7 @@ namespace {
 /// The last step of the history before the last stage that the run came to; zero without stages.
 std::uint64_t last_stage_start(const RunFolder& folder) {
   if (!std::filesystem::exists(folder.history())) return 0;
-  const HistoryTable table = read_history(folder.history());
+  const HistoryTable table = read_history(folder.own(folder.history()));
   const auto column = [&](const char* name) {
     return static_cast<std::size_t>(std::find(table.header.begin(), table.header.end(), name) -
                                     table.header.begin());
@@ -76,13 +76,15 @@ void replace(std::string& text, std::string_view what, const std::string& by) {
   if (at != std::string::npos) text.replace(at, what.size(), by);
 }
 
+/// A text as Python reads it: bytes as the system has them in file names, in ASCII.
 std::string python_text(std::string_view text) {
-  std::string quoted = "\"";
+  std::string quoted = "os.fsdecode(b\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
+    const auto code = static_cast<unsigned char>(c);
+    const bool plain = code >= 0x20 && code < 0x7f && c != '"' && c != '\\';
+    quoted += plain ? std::string(1, c) : fmt::format("\\x{:02x}", code);
   }
-  return quoted + '"';
+  return quoted + "\")";
 }
 
 }  // namespace
@@ -96,9 +98,9 @@ ParaviewState write_paraview_state(const RunFolder& folder) {
                  .reason = {},
                  .fix = "Wait until it has, or run it again."}};
   }
-  const RunShapes shapes = read_run_shapes(folder, scene, grains_by_shape(folder, saved.front()));
+  const RunShapes shapes = read_run_shapes(folder, scene, grains_by_shape(folder));
   const std::filesystem::path target = folder.paraview();
-  std::filesystem::remove_all(target);
+  folder.remove_paraview();
   std::filesystem::create_directories(target);
   if (shapes.missing.empty()) write_shapes(target, shapes.shapes);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/report/run_pieces.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -24,8 +26,8 @@
 namespace reckon {
 namespace {
 
-std::string text_of(const std::filesystem::path& file) {
-  return std::filesystem::exists(file) ? read_file(file) : std::string{};
+std::string text_of(const RunFolder& folder, const std::filesystem::path& file) {
+  return std::filesystem::exists(folder.own(file)) ? read_file(file) : std::string{};
 }
 
 double to_number(const std::string& cell) {
@@ -39,7 +41,9 @@ void add_history(const RunFolder& folder, const SceneConfig& scene, std::size_t 
                  Piece& piece) {
   JsonWriter& json = piece.json();
   HistoryTable table;
-  if (std::filesystem::exists(folder.history())) table = read_history(folder.history());
+  if (std::filesystem::exists(folder.own(folder.history()))) {
+    table = read_history(folder.history());
+  }
   const std::vector<Wall> walls = make_walls(scene);
   std::map<std::string, std::string> meanings;
   for (const QuantityGroup& group : quantity_groups(walls)) {
@@ -145,7 +149,8 @@ void add_shapes(const RunShapes& shapes, Piece& piece) {
     const double extent = std::max(extent_of(shape.fine), extent_of(shape.coarse));
     json.begin_object();
     json.value("name", shape.name);
-    json.value("grains", s < shapes.grains.size() ? shapes.grains[s] : 0);
+    const auto count = shapes.grains.find(static_cast<std::uint32_t>(s));
+    json.value("grains", count == shapes.grains.end() ? 0 : count->second);
     json.value("volume", shape.volume);
     json.value("extent", extent);
     json.value("vertices", shape.fine.mesh.vertices.size());
@@ -185,7 +190,12 @@ std::vector<std::uint64_t> RunPieces::frame_steps() const {
   return spread_steps(folder_.field_steps("grains"), limits_.frames);
 }
 
-std::string RunPieces::head() {
+void RunPieces::read_shapes(const SceneConfig& scene) {
+  const GrainsByShape grains = grains_by_shape(folder_);
+  if (!shapes_ || shapes_->grains != grains) shapes_ = read_run_shapes(folder_, scene, grains);
+}
+
+std::string RunPieces::head(const std::vector<std::uint64_t>& left_out) {
   const SceneConfig scene = scene_of_run(folder_);
   Piece piece;
   JsonWriter& json = piece.json();
@@ -197,11 +207,11 @@ std::string RunPieces::head() {
   json.begin_array("stages");
   for (const StageConfig& stage : scene.stages) json.value(stage.name);
   json.end();
-  json.value("record", text_of(folder_.json()));
-  json.value("performance", text_of(folder_.performance()));
-  json.value("scene", text_of(folder_.scene()));
-  json.value("resolved", text_of(folder_.resolved()));
-  json.value("log", text_of(folder_.log()));
+  json.value("record", text_of(folder_, folder_.json()));
+  json.value("performance", text_of(folder_, folder_.performance()));
+  json.value("scene", text_of(folder_, folder_.scene()));
+  json.value("resolved", text_of(folder_, folder_.resolved()));
+  json.value("log", text_of(folder_, folder_.log()));
   add_history(folder_, scene, limits_.history_rows, piece);
   add_walls(scene, json);
   json.value("cell", scene.cell.has_value());
@@ -209,17 +219,26 @@ std::string RunPieces::head() {
   const std::vector<std::uint64_t> all = folder_.field_steps("grains");
   json.value("saved_frames", all.size());
   json.begin_array("frames");
-  for (const std::uint64_t step : spread_steps(all, limits_.frames)) json.value({}, step);
+  for (const std::uint64_t step : spread_steps(all, limits_.frames)) {
+    if (std::find(left_out.begin(), left_out.end(), step) == left_out.end()) json.value({}, step);
+  }
   json.end();
-  std::vector<std::uint64_t> grains;
-  if (!all.empty()) grains = grains_by_shape(folder_, all.front());
-  if (!shapes_ || shapes_->grains != grains) shapes_ = read_run_shapes(folder_, scene, grains);
+  read_shapes(scene);
   add_shapes(*shapes_, piece);
   return piece.finish();
 }
 
-std::string RunPieces::frame(std::uint64_t step) const {
+std::string RunPieces::frame(std::uint64_t step) {
   const SavedFields fields = read_fields(folder_, step);
+  if (!shapes_) read_shapes(scene_of_run(folder_));
+  for (const SavedGrain& grain : fields.grains) {
+    if (shapes_->shapes.empty() || grain.shape.get() < shapes_->shapes.size()) continue;
+    throw Error{{.place = (folder_.root() / RunFolder::field_name("grains", step)).string(),
+                 .problem = "this file of fields contradicts the run",
+                 .reason = fmt::format("grain {} is said to have shape {} of {}", grain.id.get(),
+                                       grain.shape.get(), shapes_->shapes.size()),
+                 .fix = {}}};
+  }
   std::vector<std::uint32_t> id;
   std::vector<std::uint32_t> shape;
   std::vector<std::uint16_t> touching;

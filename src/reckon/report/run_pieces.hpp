@@ -34,13 +34,17 @@ class RunPieces {
 
   /// All but the grains at each saved time, as a Piece: the history, the shapes with their
   /// surfaces, walls, the scene, what ran and how long it took. Shapes are read once, since they
-  /// never change. Throws Error when the folder holds no run, or what it holds is damaged.
-  [[nodiscard]] std::string head();
+  /// never change. Steps that are `left_out` are none of its saved times. Throws Error when the
+  /// folder holds no run, or what it holds is damaged.
+  [[nodiscard]] std::string head(const std::vector<std::uint64_t>& left_out = {});
 
-  /// Grains and contacts at one saved step, as a Piece. Throws Error as read_fields does.
-  [[nodiscard]] std::string frame(std::uint64_t step) const;
+  /// Grains and contacts at one saved step, as a Piece. Throws Error as read_fields does, and when
+  /// a grain has a shape that the run does not have.
+  [[nodiscard]] std::string frame(std::uint64_t step);
 
  private:
+  void read_shapes(const SceneConfig& scene);
+
   RunFolder folder_;
   PageLimits limits_;
   std::optional<RunShapes> shapes_;

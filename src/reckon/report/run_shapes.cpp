@@ -4,8 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numeric>
-#include <span>
+#include <utility>
 
 #include "reckon/avatar/shape_catalog.hpp"
 #include "reckon/avatar/shape_statistics.hpp"
@@ -26,19 +25,18 @@ constexpr std::size_t most_triangles = 2400;
 constexpr std::size_t fewest_triangles = 160;
 constexpr std::size_t coarse_triangles = 48;
 
-std::size_t triangles_per_grain(std::span<const std::uint64_t> grains) {
-  const std::uint64_t total = std::accumulate(grains.begin(), grains.end(), std::uint64_t{0});
-  const auto used = static_cast<std::size_t>(
-      std::count_if(grains.begin(), grains.end(), [](std::uint64_t count) { return count > 0; }));
+std::size_t triangles_per_grain(const GrainsByShape& grains) {
+  std::uint64_t total = 0;
+  for (const auto& [shape, count] : grains) total += count;
   const std::size_t wanted = std::min(triangles_on_screen / std::max<std::size_t>(total, 1),
-                                      triangles_in_page / std::max<std::size_t>(used, 1));
+                                      triangles_in_page / std::max<std::size_t>(grains.size(), 1));
   return std::clamp(wanted, fewest_triangles, most_triangles);
 }
 
 ShapeCatalog catalog_of(const RunFolder& folder, const SceneConfig& scene) {
   const std::vector<std::uint64_t> checkpoints = folder.checkpoint_steps();
   if (!checkpoints.empty()) {
-    return shapes_of(read_checkpoint(folder.checkpoint(checkpoints.front())),
+    return shapes_of(read_checkpoint(folder.own(folder.checkpoint(checkpoints.front()))),
                      folder.root().string());
   }
   ShapeCatalog catalog;  // of a run that has none yet
@@ -64,31 +62,44 @@ SceneConfig scene_of_run(const RunFolder& folder) {
                  .reason = "it has no scene_resolved.toml",
                  .fix = "Name a folder that `reckon run` has written."}};
   }
-  // Faults of files that have gone since do not matter here.
-  return read_scene_text(read_file(folder.resolved()), folder.root()).config;
+  const std::filesystem::path file = folder.own(folder.resolved());
+  SceneReading reading = read_scene_text(read_file(file), folder.root());
+  for (const SceneFault& fault : reading.faults) {
+    if (fault.is_of_other_file) continue;  // shapes that have gone since are told of later
+    throw Error{{.place = file.string(),
+                 .problem = "this is not a scene that a run has written",
+                 .reason = describe(fault, file.filename().string()),
+                 .fix = "Put the run's own file back: `reckon run` with --resume writes it anew."}};
+  }
+  return std::move(reading.config);
 }
 
-std::vector<std::uint64_t> grains_by_shape(const RunFolder& folder, std::uint64_t step) {
-  std::vector<std::uint64_t> counts;
-  for (const SavedGrain& grain : read_fields(folder, step).grains) {
-    counts.resize(std::max<std::size_t>(counts.size(), grain.shape.get() + std::size_t{1}));
-    ++counts[grain.shape.get()];
+GrainsByShape grains_by_shape(const RunFolder& folder) {
+  GrainsByShape counts;
+  for (const std::uint64_t step : folder.field_steps("grains")) {
+    try {
+      for (const SavedGrain& grain : read_fields(folder, step).grains) ++counts[grain.shape.get()];
+      break;
+    } catch (const Error&) {
+      counts.clear();  // damaged: whoever shows this step says so; the next will do here
+    }
   }
   return counts;
 }
 
 RunShapes read_run_shapes(const RunFolder& folder, const SceneConfig& scene,
-                          const std::vector<std::uint64_t>& grains) {
+                          const GrainsByShape& grains) {
   RunShapes result{.grains = grains};
   const std::size_t triangles = triangles_per_grain(grains);
   try {
     const ShapeCatalog catalog = catalog_of(folder, scene);
-    if (catalog.size() < grains.size()) {
+    const bool fits = grains.empty() || grains.rbegin()->first < catalog.size();
+    if (!fits && folder.checkpoint_steps().empty()) {  // a checkpoint would have told
       return {.grains = grains,
               .missing = "a shape library named in scene_resolved.toml has changed"};
     }
     for (std::uint32_t s = 0; s < catalog.size(); ++s) {
-      const bool used = s < grains.size() && grains[s] > 0;
+      const bool used = grains.contains(s);
       result.shapes.push_back(make_shape(catalog.read(ShapeId{s}), used, triangles));
     }
   } catch (const Error& error) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,15 @@
 
 namespace reckon {
 
-/// The scene as it ran, without its files. Throws Error where the folder holds no run.
+/// The scene as it ran, without its files. Throws Error where the folder holds no run, or its
+/// scene_resolved.toml is not a scene.
 [[nodiscard]] SceneConfig scene_of_run(const RunFolder& folder);
 
-/// How many grains have each shape at a saved step.
-[[nodiscard]] std::vector<std::uint64_t> grains_by_shape(const RunFolder& folder,
-                                                         std::uint64_t step);
+/// How many grains have each shape, by ShapeId. Not a list by shape: a damaged file may name any.
+using GrainsByShape = std::map<std::uint32_t, std::uint64_t>;
+
+/// At the first saved step that can be read.
+[[nodiscard]] GrainsByShape grains_by_shape(const RunFolder& folder);
 
 /// One shape as the page shows it.
 struct RunShape {
@@ -30,15 +34,15 @@ struct RunShape {
 };
 
 struct RunShapes {
-  std::vector<RunShape> shapes;       ///< by ShapeId; those that no grain has are without surfaces
-  std::vector<std::uint64_t> grains;  ///< how many have each shape
-  std::string missing;                ///< why there are none; empty where there are
+  std::vector<RunShape> shapes;  ///< by ShapeId; those that no grain has are without surfaces
+  GrainsByShape grains;
+  std::string missing;  ///< why there are none; empty where there are
 };
 
 /// The shapes of a run from the libraries that `scene` names. `grains` is the number of grains of
 /// each shape: the more grains and shapes, the fewer triangles each. Where a checkpoint shows that
 /// the libraries are not those that ran, or one is gone, there are none, and it says why.
 [[nodiscard]] RunShapes read_run_shapes(const RunFolder& folder, const SceneConfig& scene,
-                                        const std::vector<std::uint64_t>& grains);
+                                        const GrainsByShape& grains);
 
 }  // namespace reckon
