@@ -9,7 +9,8 @@ namespace reckon {
 std::string csv_text(std::string_view name) {
   constexpr std::string_view formulas = "=+-@\t\r";
   std::string text = valid_utf8(name);
-  if (!text.empty() && formulas.find(text.front()) != std::string_view::npos) text.insert(text.begin(), '\'');
+  if (!text.empty() && formulas.find(text.front()) != std::string_view::npos)
+    text.insert(text.begin(), '\'');
   const bool has_blank_end = text.starts_with(' ') || text.ends_with(' ');
   if (text.find_first_of(",\"\r\n\t") == std::string::npos && !has_blank_end) return text;
   std::string quoted = "\"";

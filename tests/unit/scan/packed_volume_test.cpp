@@ -187,8 +187,7 @@ TEST_F(PackedVolumes, FullDiskIsSaidAndLeavesNothing) {
   }
   for (const std::string name : {"o.npy", "o.raw", "o.mha", "o.tif", "o.h5"}) {
     SCOPED_TRACE(name);
-    expect_error([&] { write_volume(path(name), volume, VoxelType::uint8); },
-                 {name, "ulimit -f"});
+    expect_error([&] { write_volume(path(name), volume, VoxelType::uint8); }, {name, "ulimit -f"});
   }
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
   (void)std::signal(SIGXFSZ, on_signal);
