@@ -52,7 +52,8 @@ struct Connection {
   std::string request{};                  ///< as far as it has come
   std::string answer{};                   ///< what is still to be sent, from `sent` on
   std::size_t sent{0};
-  bool last{false};  ///< close after this answer
+  bool last{false};     ///< close after this answer
+  bool closing{false};  ///< has its last answer; what it still sends is thrown away
   bool gone{false};
 
   [[nodiscard]] bool is_sending() const { return sent < answer.size(); }
@@ -156,8 +157,9 @@ struct HttpServer::Impl {
   }
 
   void receive(Connection& client) {
+    constexpr int most_parts = 16;  // then it is the others' turn
     std::array<char, 4096> bytes{};
-    while (!client.is_sending() && !client.gone) {
+    for (int part = 0; part < most_parts && !client.is_sending() && !client.gone; ++part) {
       const ssize_t count = ::recv(client.socket.get(), bytes.data(), bytes.size(), 0);
       if (count < 0 && errno == EINTR) continue;
       if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
@@ -165,6 +167,7 @@ struct HttpServer::Impl {
         client.gone = true;
         return;
       }
+      if (client.closing) continue;
       client.request.append(bytes.data(), static_cast<std::size_t>(count));
       answer_what_has_come(client);
     }
@@ -173,7 +176,7 @@ struct HttpServer::Impl {
   /// Answers whole requests, one after the other, until an answer has to wait for its reader.
   void answer_what_has_come(Connection& client) {
     constexpr std::string_view ending = "\r\n\r\n";
-    while (!client.is_sending() && !client.gone) {
+    while (!client.is_sending() && !client.closing && !client.gone) {
       const std::size_t end = client.request.find(ending);
       if (end == std::string::npos) {
         if (client.request.size() > longest_request) reply(client, {431, {}, {}}, true, true);
@@ -225,7 +228,10 @@ struct HttpServer::Impl {
     }
     client.answer.clear();
     client.sent = 0;
-    if (client.last) client.gone = true;
+    if (!client.last) return;
+    // Closing at once, with bytes unread, would take the answer away from the client.
+    client.closing = ::shutdown(client.socket.get(), SHUT_WR) == 0;
+    client.gone = !client.closing;
   }
 
   void serve() {
@@ -276,8 +282,7 @@ HttpServer::HttpServer(int port, std::string headers, Answerer answerer)
   socklen_t size = sizeof address;
   auto* const generic = reinterpret_cast<sockaddr*>(&address);
   if (listener < 0 || impl_->stopper.get() < 0 || ::bind(listener, generic, size) != 0 ||
-      ::listen(listener, static_cast<int>(most_connections)) != 0 ||
-      ::getsockname(listener, generic, &size) != 0) {
+      ::listen(listener, SOMAXCONN) != 0 || ::getsockname(listener, generic, &size) != 0) {
     throw Error{{.place = fmt::format("port {}", port),
                  .problem = "cannot be listened to",
                  .reason = std::generic_category().message(errno),

@@ -25,7 +25,7 @@ struct HttpAnswer {
 /// keep is bounded: so many connections, so many bytes of a request, so many seconds for one.
 class HttpServer {
  public:
-  static constexpr std::size_t most_connections = 64;
+  static constexpr std::size_t most_connections = 256;
   static constexpr std::size_t longest_request = 8192;  ///< [bytes]
   static constexpr int patience = 10;  ///< for a request, for an answer to move [s]
 

@@ -103,7 +103,7 @@ TEST_F(HttpServerTest, KeepsNoMoreOfARequestThanItNeeds) {
 
 TEST_F(HttpServerTest, SlowClientsHoldUpNobody) {
   std::vector<std::unique_ptr<Client>> slow;
-  for (int n = 0; n < 200; ++n) {
+  for (int n = 0; n < 400; ++n) {
     slow.push_back(std::make_unique<Client>(server_.port()));
     slow.back()->send("GET / HT");
   }
