@@ -126,7 +126,7 @@ GridCut cut_grid(const Region& domain, int ranks, double reach) {
   GridCut cut;
   cut.origin = domain.empty() ? Vec3{} : domain.low;
   const Vec3 size = domain.empty() ? Vec3{reach, reach, reach} : domain.high - domain.low;
-  constexpr double most_bins = 1024;  // along an axis: a lone grain far off must not cost memory
+  constexpr double most_bins = 1 << 20;  // along an axis, so that three of them count in 64 bits
   for (int axis = 0; axis < 3; ++axis) {
     const double bins = std::clamp(std::floor(size[axis] / reach), 1.0, most_bins);
     cut.bins[static_cast<std::size_t>(axis)] = static_cast<int>(bins);

@@ -13,7 +13,8 @@ namespace reckon {
 
 /// The bins of one block with a padding layer around it, and the paper's four lists (section 4.4):
 ///
-///   bins[b]             first grain in bin b
+///   bins[b]             first grain in bin b: a hash table, since most bins of a box around a far
+///                       grain are empty
 ///   bin_list[g]         the bin of grain g
 ///   grain_list[g]       the next grain in the bin of grain g
 ///   belongs_to_rank[g]  whether g lives inside the block or is a ghost in the padding
@@ -32,15 +33,19 @@ class BlockBins {
   [[nodiscard]] std::vector<Pair> pairs_by_grain(std::span<const GrainId> ids,
                                                  std::span<const Vec3> positions,
                                                  std::span<const double> radii, double skin) const;
-  /// The same by walking over all bins, empty ones too: the paper's naive algorithm.
+  /// The same by walking over all bins, empty ones too: the paper's naive algorithm. Where a far
+  /// grain leaves most of the box empty, only bins with grains are visited.
   [[nodiscard]] std::vector<Pair> pairs_by_bin(std::span<const GrainId> ids,
                                                std::span<const Vec3> positions,
                                                std::span<const double> radii, double skin) const;
 
-  [[nodiscard]] std::size_t bin_count() const { return bins_.size(); }
+  [[nodiscard]] std::uint64_t bin_count() const { return size_[0] * size_[1] * size_[2]; }
 
  private:
-  [[nodiscard]] std::uint32_t bin_at(int x, int y, int z) const;
+  [[nodiscard]] std::uint64_t bin_at(std::uint64_t x, std::uint64_t y, std::uint64_t z) const;
+  [[nodiscard]] std::size_t slot_of(std::uint64_t bin) const;
+  template <class Visit>
+  void visit_bin(std::uint64_t bin, Visit&& visit) const;
   template <class Visit>
   void visit_half_neighbors(std::uint32_t grain, Visit&& visit) const;
   /// Those with grains behind it in its bin, and in half of the bins around.
@@ -48,10 +53,11 @@ class BlockBins {
                     std::span<const Vec3> positions, std::span<const double> radii, double skin,
                     std::vector<Pair>& pairs) const;
 
-  std::array<int, 3> size_{};  // bins along x, y, z, padding included
-  std::vector<std::uint32_t> bins_;
-  std::vector<std::uint32_t> bin_list_;
-  std::vector<std::uint32_t> grain_list_;
+  std::array<std::uint64_t, 3> size_{};    // bins along x, y, z, padding included
+  int shift_{0};                           // 64 - log2(table size)
+  std::vector<std::uint32_t> bins_;        // table slot -> first grain
+  std::vector<std::uint64_t> bin_list_;    // grain -> its bin
+  std::vector<std::uint32_t> grain_list_;  // grain -> next grain of the same table slot
   std::vector<Residence> belongs_to_rank_;
 };
 
