@@ -4,9 +4,12 @@
 // What Simulation does with a membrane. All ranks hold all of it; each finds the touches of its own
 // grains, and all ranks add up all touches in the same order.
 #include <algorithm>
+#include <limits>
 
+#include "reckon/boundary/membrane_side.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/domain/packing.hpp"
+#include "reckon/parallel/threads.hpp"
 #include "reckon/simulation/simulation.hpp"
 
 namespace reckon {
@@ -109,6 +112,27 @@ void Simulation::evaluate_membrane() {
                               setup_.time_step);
   membrane_->evaluate(share(distribution_.ranks(), membrane_contacts_.touches()),
                       membrane_pressure());
+}
+
+std::optional<GrainOutside> Simulation::grain_outside_membrane() const {
+  if (membrane() == nullptr) return std::nullopt;
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  const MembraneSide side{*membrane_};
+  const auto rank_of = [](GrainId id) {
+    return -static_cast<double>(id.get());
+  };  // the lowest wins
+  const Communicator& ranks = distribution_.ranks();
+  const double found = ranks.max(parallel_max(grains_.size(), none, [&](std::size_t slot) {
+    const bool out = grains_.prescribed[slot] == 0 && side.is_outside(grains_.position[slot]);
+    return out ? rank_of(grains_.id[slot]) : none;
+  }));
+  if (found == none) return std::nullopt;
+  Vec3 position{none, none, none};
+  for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
+    if (rank_of(grains_.id[slot]) == found) position = grains_.position[slot];
+  }
+  for (int axis = 0; axis < 3; ++axis) position[axis] = ranks.max(position[axis]);
+  return GrainOutside{GrainId{static_cast<std::uint32_t>(-found)}, position};
 }
 
 }  // namespace reckon

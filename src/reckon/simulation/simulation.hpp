@@ -100,6 +100,12 @@ struct SimulationState {
   friend bool operator==(const SimulationState&, const SimulationState&) = default;
 };
 
+/// A grain that has left the sample through its membrane.
+struct GrainOutside {
+  GrainId grain;
+  Vec3 position;  ///< [m]
+};
+
 /// One pair of touching grains, or a grain and a wall, as output shows it.
 struct ContactRecord {
   GrainId grain;
@@ -162,6 +168,9 @@ class Simulation {
   [[nodiscard]] const Membrane* membrane() const {
     return membrane_ && membrane_->in_place() ? &*membrane_ : nullptr;
   }
+  /// The grain of the lowest id whose centre is beyond the membrane; those that keep their
+  /// velocities do not count. Collective.
+  [[nodiscard]] std::optional<GrainOutside> grain_outside_membrane() const;
   [[nodiscard]] const MembraneContacts& membrane_contacts() const { return membrane_contacts_; }
   /// The periodic cell as of the current step, else nothing.
   [[nodiscard]] const PeriodicCell* cell() const { return cell_ ? &*cell_ : nullptr; }
