@@ -16,6 +16,7 @@
 #include "reckon/core/file.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "report.hpp"
+#include "thread_limit.hpp"
 
 namespace reckon::app {
 namespace {
@@ -104,7 +105,7 @@ void add_bench_command(CLI::App& app) {
   command->add_option("--grains", options->grains,
                       "Number of grains instead of the workload's own");
   command->add_option("--threads", options->threads, "Threads; above 1 also compares with one")
-      ->check(CLI::Range(1, 4096))
+      ->check(CLI::Range(1, most_threads))
       ->capture_default_str();
   std::vector<std::string> levels{"auto"};
   for (const SimdLevel level : simd_levels_here()) levels.emplace_back(name_of(level));

@@ -15,6 +15,7 @@
 #include "reckon/io/run_plan.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "scene_input.hpp"
+#include "thread_limit.hpp"
 
 namespace reckon::app {
 namespace {
@@ -77,7 +78,7 @@ void add_check_command(CLI::App& app) {
   command->add_option("scene", options->scene, "Scene file (TOML)")->required();
   command->add_flag("--json", options->json, "Answer in JSON");
   command->add_option("--threads", options->threads, "Threads for the timed steps (default: all)")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(1, most_threads));
   command
       ->add_option("--timing", options->timing_seconds,
                    "Seconds to spend on timing real steps in memory")

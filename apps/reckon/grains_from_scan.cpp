@@ -20,6 +20,7 @@
 #include "reckon/scan/from_scan.hpp"
 #include "reckon/scan/image_filters.hpp"
 #include "scan_report.hpp"
+#include "thread_limit.hpp"
 
 namespace reckon::app {
 namespace {
@@ -228,7 +229,7 @@ void add_grains_from_scan(CLI::App& grains) {
           "Of blocks [voxels]: more than the largest grain (default: a quarter of a block)")
       ->check(CLI::Range(8, 100000));
   command->add_option("--threads", options->threads, "Threads (default: all)")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(1, most_threads));
   command->callback([=] { run(*options); });
 }
 

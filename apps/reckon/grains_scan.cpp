@@ -27,6 +27,7 @@
 #include "reckon/scan/scan_avatars.hpp"
 #include "reckon/scan/scanner.hpp"
 #include "reckon/scan/volume_file.hpp"
+#include "thread_limit.hpp"
 
 namespace reckon::app {
 namespace {
@@ -214,7 +215,7 @@ void add_grains_scan(CLI::App& grains) {
                    "of the machine's)")
       ->transform(CLI::AsSizeValue(true));
   command->add_option("--threads", options->threads, "Threads (default: all)")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(1, most_threads));
   command->add_flag("--json", options->json, "Answer in JSON");
   command->callback([=] { scan(*options); });
 }

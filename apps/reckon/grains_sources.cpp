@@ -20,6 +20,7 @@
 #include "reckon/core/file.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/parallel/threads.hpp"
+#include "thread_limit.hpp"
 
 namespace reckon::app {
 namespace {
@@ -56,7 +57,7 @@ std::shared_ptr<MakeOptions> add_make_options(CLI::App& command) {
       ->check(CLI::Range(4, 10000000));
   add_storage_option(command, options->storage);
   command.add_option("--threads", options->threads, "Threads (default: all)")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(1, most_threads));
   return options;
 }
 

@@ -34,6 +34,7 @@
 #include "run_command.hpp"
 #include "standard_streams.hpp"
 #include "surfaces_command.hpp"
+#include "thread_limit.hpp"
 #include "watch_command.hpp"
 
 namespace reckon::app {
@@ -67,12 +68,13 @@ void require_known_command(const CLI::App& app, int argc, char** argv) {
                            : fmt::format("There are {}.", fmt::join(names, ", "))}};
 }
 
-/// Two libraries read their settings before main, so the program starts itself once more with what
+/// Some libraries read their settings before main, so the program starts itself once more with what
 /// suits it, unless the user has chosen:
 /// - Idle threads of GNU's OpenMP spin for milliseconds before they sleep. Where other programs
 /// want
 ///   the cores too, each of the many short parallel loops of a step then waits for a turn of the
 ///   scheduler, and a run becomes a hundred times slower. A short spin will do.
+/// - OpenMP takes any OMP_NUM_THREADS, and ends the program where the system refuses so many.
 /// - GNU's malloc can ask for huge pages. The near lists of many pairs are more pages than a
 ///   processor remembers the addresses of.
 // NOLINTBEGIN(concurrency-mt-unsafe): the environment is read before any thread starts
@@ -82,6 +84,10 @@ void restart_with_settings(char** argv) {
     if (std::getenv(name) != nullptr) return;
     changed = setenv(name, value, 1) == 0 || changed;
   };
+  const char* threads = std::getenv("OMP_NUM_THREADS");
+  if (threads != nullptr && std::strtod(threads, nullptr) > most_threads) {
+    changed = setenv("OMP_NUM_THREADS", std::to_string(most_threads).c_str(), 1) == 0 || changed;
+  }
   if (std::getenv("OMP_WAIT_POLICY") == nullptr) prefer("GOMP_SPINCOUNT", "1000");
   prefer("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1");
   if (changed) execv("/proc/self/exe", argv);  // on failure: go on as we are

@@ -30,6 +30,7 @@
 #include "scene_input.hpp"
 #include "standard_streams.hpp"
 #include "stop_signal.hpp"
+#include "thread_limit.hpp"
 
 namespace reckon::app {
 namespace {
@@ -217,7 +218,7 @@ void add_run_command(CLI::App& app, const Communicator& ranks, bool launched) {
           "--threads", options->threads,
           "Number of threads of each process (default: an even share of the machine); changes "
           "no result")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(1, most_threads));
   command->add_option("--steps", options->steps, "Run to this step instead of what the scene says")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000'000}));
   CLI::Option* resume = command->add_flag(

@@ -73,9 +73,12 @@ std::optional<std::uint32_t> morphology_number(const std::string& file_name) {
 
 Shape to_shape(const LegacyMorphology& m, double voxel, const std::string& name,
                LegacyRadius radius) {
-  if (!(voxel > 0) || !std::isfinite(voxel)) {
+  // Distances are kept in single precision, and moments grow with the fifth power.
+  constexpr double smallest = 1e-30;
+  constexpr double largest = 1e30;
+  if (!(voxel >= smallest && voxel <= largest)) {
     throw Error{{.place = name,
-                 .problem = "the voxel's length must be positive",
+                 .problem = "the voxel's length must be between 1e-30 and 1e30 m",
                  .reason = fmt::format("{} m was given", voxel),
                  .fix = "Give the scan's voxel length."}};
   }

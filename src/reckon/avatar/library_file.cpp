@@ -130,10 +130,10 @@ class LibraryReader {
     const Hdf5Extents extents = file_.extents("/shape/spacing");
     if (extents.size() != 1 || extents[0] == 0) damaged(path, "it holds no shapes");
     const std::uint64_t count = extents[0];
-    table_.resize(count);
     const auto names = file_.read_texts("/shape/name", count);
     const auto dims = file_.read<std::int32_t>("/shape/dims", {count, 3});
     digest_ = file_.read<std::uint64_t>("/shape/digest", {count});
+    table_.resize(count);  // now that the file has been seen to hold as many
     for (std::size_t s = 0; s < count; ++s) {
       table_[s].name = names[s];
       table_[s].level_set.dims = {dims[3 * s], dims[3 * s + 1], dims[3 * s + 2]};
@@ -234,7 +234,9 @@ class LibraryReader {
                                                            const std::string& data) const {
     auto first = file_.read<std::uint64_t>(name, {table_.size() + 1});
     const bool rising = std::is_sorted(first.begin(), first.end());
-    if (!rising || first.front() != 0 || file_.extents(data) != Hdf5Extents{first.back()}) {
+    const bool held = first.back() <= std::filesystem::file_size(file_.path());
+    if (!rising || !held || first.front() != 0 ||
+        file_.extents(data) != Hdf5Extents{first.back()}) {
       damaged(file_.path(), fmt::format("{} does not fit {}", name, data));
     }
     return first;

@@ -74,7 +74,12 @@ void Membrane::adopt(MembraneState state) {
   if (!state_.in_place()) return;
   const double nodes = MembraneMesh::expected_size(state_.start, setup_.spacing);
   const auto found = static_cast<double>(state_.nodes.size());
-  const bool likely = nodes > 0.5 * found && nodes < 2 * found + 100;
+  // Neither of its lengths alone may ask for more nodes than there are.
+  const auto is_sound = [&](double length) {
+    return length > 0 && length < (found + 100) * setup_.spacing;
+  };
+  const bool likely = nodes > 0.5 * found && nodes < 2 * found + 100 &&
+                      is_sound(state_.start.radius) && is_sound(state_.start.height);
   if (likely) mesh_ = MembraneMesh{state_.start, setup_.spacing};
   const bool fits = mesh_.size() == state_.nodes.size() &&
                     std::all_of(state_.springs.begin(), state_.springs.end(),

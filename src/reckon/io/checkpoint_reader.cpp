@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -69,9 +72,14 @@ class Extractor {
                .fix = "Resume from another one."}};
 }
 
+/// No more than the file has bytes: columns are stored as they are.
 std::uint64_t rows_of(const Hdf5Reader& file, const std::string& column) {
   const Hdf5Extents extents = file.extents(column);
-  return extents.empty() ? 0 : extents[0];
+  const std::uint64_t rows = extents.empty() ? 0 : extents[0];
+  if (rows > std::filesystem::file_size(file.path())) {
+    refuse(file, fmt::format("{} claims {} rows, more than the file holds", column, rows));
+  }
+  return rows;
 }
 
 /// The rows of a table; `column` tells how many there are.

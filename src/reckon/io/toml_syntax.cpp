@@ -36,10 +36,69 @@ std::optional<LineRange> find_line(const std::string& text, std::uint32_t number
   return LineRange{begin, std::min(text.find('\n', begin), text.size())};
 }
 
+/// Walks the text of a TOML file and skips comments and strings of all kinds. (What is no TOML is
+/// walked somehow, and refused by the parser.)
+class KeyDepth {
+ public:
+  explicit KeyDepth(std::string_view text) : text_{text} {}
+
+  /// Where a key has more parts than `most`: "a.b.c" has three.
+  std::optional<SourcePosition> find_deeper_than(std::size_t most) {
+    std::size_t parts = 1;
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '#') {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+        continue;
+      }
+      if (c == '"' || c == '\'') {
+        skip_string(c);
+        continue;
+      }
+      if (c == '.') {
+        if (++parts > most) return position();
+      } else if (std::string_view{"=,[]{}\n"}.find(c) != std::string_view::npos) {
+        parts = 1;
+      }
+      ++at_;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void skip_string(char quote) {
+    const std::string three(3, quote);
+    const bool has_lines = text_.substr(at_).starts_with(three);
+    const std::string_view end = has_lines ? std::string_view{three} : text_.substr(at_, 1);
+    at_ += end.size();
+    while (at_ < text_.size() && !text_.substr(at_).starts_with(end)) {
+      if (!has_lines && text_[at_] == '\n') return;
+      at_ += quote == '"' && text_[at_] == '\\' ? 2U : 1U;
+    }
+    at_ = std::min(at_ + end.size(), text_.size());
+  }
+  [[nodiscard]] SourcePosition position() const {
+    const std::string_view before = text_.substr(0, at_);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t begin = before.rfind('\n') + 1;  // npos + 1 is 0
+    return {static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(at_ - begin + 1)};
+  }
+
+  std::string_view text_;
+  std::size_t at_{0};
+};
+
 }  // namespace
 
 TomlSyntax parse_toml(std::string text) {
   TomlSyntax syntax;
+  // The parser nests a table for each part of a key and frees them by recursion.
+  constexpr std::size_t most_parts = 16;
+  if (const auto deep = KeyDepth{text}.find_deeper_than(most_parts)) {
+    syntax.faults.push_back(
+        {*deep, {}, "a key has more than 16 parts", "No key of a scene has more than four."});
+    return syntax;
+  }
   std::uint32_t last_line = 0;
   bool header_lost = false;
   while (syntax.faults.size() < most_faults) {

@@ -3,15 +3,18 @@
 #include "reckon/io/checkpoint.hpp"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/hdf5_file.hpp"
+#include "reckon/core/seal.hpp"
 #include "reckon/io/run_diff.hpp"
 #include "support/test_path.hpp"
 
@@ -137,6 +140,52 @@ TEST_F(CheckpointTest, AStateWithoutContactsOrGrains) {
   EXPECT_TRUE(read.state.grains.empty());
   EXPECT_TRUE(read.state.pair_springs.empty());
   EXPECT_TRUE(read.state.wall_springs.empty());
+}
+
+/// Every dataset in turn claims rows that the file does not have, under a valid seal.
+TEST_F(CheckpointTest, RefusesCountsThatTheFileCannotHold) {
+  write_checkpoint(path_, awkward_checkpoint());
+  const std::string whole = read_file(path_);
+  const auto version =
+      static_cast<std::uint32_t>(std::stoul(whole.substr(whole.find("version ") + 8)));
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5O_info_t* info, void* to) -> herr_t {
+    if (info->type == H5O_TYPE_DATASET)
+      static_cast<std::vector<std::string>*>(to)->emplace_back(name);
+    return 0;
+  };
+  const hid_t original = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  H5Ovisit2(original, H5_INDEX_NAME, H5_ITER_INC, collect, &names, H5O_INFO_BASIC);
+  H5Fclose(original);
+  std::size_t refused = 0;
+  for (const std::string& name : names) {
+    for (const hsize_t rows : {hsize_t{1} << 33U, hsize_t{1} << 56U}) {
+      write_file(path_, whole);
+      const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+      const hid_t before = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+      const hid_t type = H5Dget_type(before);
+      const hid_t old_space = H5Dget_space(before);
+      std::vector<hsize_t> extents(static_cast<std::size_t>(H5Sget_simple_extent_ndims(old_space)));
+      H5Sget_simple_extent_dims(old_space, extents.data(), nullptr);
+      H5Sclose(old_space);
+      H5Dclose(before);
+      H5Ldelete(file, name.c_str(), H5P_DEFAULT);
+      extents[0] = rows;
+      const hid_t space =
+          H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr);
+      H5Dclose(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+      H5Sclose(space);
+      H5Tclose(type);
+      H5Fclose(file);
+      write_seal(path_, "checkpoint", version, path_);
+      try {
+        (void)read_checkpoint(path_);
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 100U);  // all but columns of tables whose first column is empty
 }
 
 TEST_F(CheckpointTest, RefusesDamageAnywhere) {
