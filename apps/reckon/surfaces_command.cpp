@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ void add_surfaces_command(CLI::App& app) {
       CountDisplay display{"checkpoints"};
       files = write_run_surfaces(
           RunFolder{options->folder}, options->step,
+          [](const std::string& size) { fmt::print(stderr, "{}\n", size); },
           [&](std::size_t done, std::size_t total) { display.show(done, total); });
     }
     fmt::print("{} file{} written; open {}\n", files.written, files.written == 1 ? "" : "s",

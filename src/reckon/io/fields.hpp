@@ -79,6 +79,14 @@ void write_grain_surfaces(const std::filesystem::path& path, const FieldsAtStep&
                           std::span<const ShapeSummary> shapes, double density,
                           std::span<const TriangleMesh> surfaces);
 
+/// What a file of write_grain_surfaces takes, on disk and in memory.
+struct SurfaceSize {
+  std::uint64_t triangles{0};
+  std::uint64_t bytes{0};
+};
+[[nodiscard]] SurfaceSize size_of_surfaces(std::span<const GrainState> grains,
+                                           std::span<const TriangleMesh> surfaces);
+
 /// The zero surfaces of the shapes that grains have, by ShapeId, for write_grain_surfaces; those of
 /// other shapes are empty.
 [[nodiscard]] std::vector<TriangleMesh> surface_meshes(std::span<const GrainState> grains,

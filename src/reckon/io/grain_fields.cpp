@@ -60,6 +60,13 @@ class GrainColumns {
   GrainColumns(const FieldsAtStep& fields, std::span<const ShapeSummary> shapes, double density)
       : fields_{fields}, shapes_{shapes}, density_{density}, touching_{touching_of(fields)} {}
 
+  void reserve(std::size_t points) {
+    for (auto* column : {&equivalent_radius_, &mass_}) column->reserve(points);
+    for (auto* column : {&velocity_, &spin_, &force_}) column->reserve(3 * points);
+    partners_.reserve(points);
+    if (!fields_.ranks.empty()) ranks_.reserve(points);
+  }
+
   /// `points` rows of the grain in this row of the fields.
   void append(std::size_t row, std::size_t points) {
     const GrainState& grain = fields_.grains[row];
@@ -143,6 +150,20 @@ void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& f
   write_vtp(path, data);
 }
 
+SurfaceSize size_of_surfaces(std::span<const GrainState> grains,
+                             std::span<const TriangleMesh> surfaces) {
+  // Bytes as the arrays below have them.
+  constexpr std::uint64_t of_vertex = 15 * sizeof(float);
+  constexpr std::uint64_t of_triangle = 4 * sizeof(std::int64_t) + 3 * sizeof(float);
+  SurfaceSize size;
+  for (const GrainState& grain : grains) {
+    const TriangleMesh& surface = surfaces[grain.shape.get()];
+    size.triangles += surface.triangles.size();
+    size.bytes += surface.vertices.size() * of_vertex + surface.triangles.size() * of_triangle;
+  }
+  return size;
+}
+
 void write_grain_surfaces(const std::filesystem::path& path, const FieldsAtStep& fields,
                           std::span<const ShapeSummary> shapes, double density,
                           std::span<const TriangleMesh> surfaces) {
@@ -152,6 +173,19 @@ void write_grain_surfaces(const std::filesystem::path& path, const FieldsAtStep&
   std::vector<std::uint32_t> shape;
   std::vector<float> speed;
   VtkPolyData data;
+  std::size_t vertices = 0;
+  std::size_t all_triangles = 0;
+  for (const GrainState& grain : fields.grains) {
+    vertices += surfaces[grain.shape.get()].vertices.size();
+    all_triangles += surfaces[grain.shape.get()].triangles.size();
+  }
+  place.reserve(3 * vertices);
+  columns.reserve(vertices);
+  id.reserve(all_triangles);
+  shape.reserve(all_triangles);
+  speed.reserve(all_triangles);
+  data.polygons.connectivity.reserve(3 * all_triangles);
+  data.polygons.offsets.reserve(all_triangles);
   for (std::size_t row = 0; row < fields.grains.size(); ++row) {
     const GrainState& grain = fields.grains[row];
     const TriangleMesh& surface = surfaces[grain.shape.get()];

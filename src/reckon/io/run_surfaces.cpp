@@ -13,6 +13,8 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/vtk_xml.hpp"
 #include "reckon/io/fields.hpp"
+#include "reckon/io/free_memory.hpp"
+#include "reckon/io/human.hpp"
 #include "reckon/io/saved_fields.hpp"
 #include "reckon/io/scene_reader.hpp"
 #include "reckon/simulation/setup.hpp"
@@ -53,6 +55,7 @@ FieldsAtStep fields_of(Checkpoint checkpoint) {
 
 SurfaceFiles write_run_surfaces(
     const RunFolder& folder, std::optional<std::uint64_t> step,
+    const std::function<void(const std::string& size)>& announce,
     const std::function<void(std::size_t done, std::size_t total)>& progressed) {
   const std::string place = folder.root().string();
   std::vector<std::uint64_t> steps = folder.checkpoint_steps();
@@ -86,6 +89,15 @@ SurfaceFiles write_run_surfaces(
         summaries.push_back(shapes.summary(ShapeId{static_cast<std::uint32_t>(s)}));
       }
       density = read_scene_text(checkpoint.scene, "/").config.material.density;
+      const SurfaceSize size = size_of_surfaces(checkpoint.state.grains, surfaces);
+      require_memory(
+          size.bytes, fmt::format("a file of {} triangles", human_count(size.triangles)),
+          "Look at fewer grains, or at grains as points with their shapes (grains.pvd).");
+      if (announce) {
+        announce(fmt::format("{} file{} of {} triangles: {} of disk each, as much memory",
+                             steps.size(), steps.size() == 1 ? "" : "s",
+                             human_count(size.triangles), human_bytes(size.bytes)));
+      }
     }
     time_step = checkpoint.time_step;
     FieldsAtStep fields = fields_of(std::move(checkpoint));

@@ -30,9 +30,12 @@ struct SurfaceFiles {
 
 /// Writes the grains' true surfaces at the checkpoints of a run, or at one of them, and an index of
 /// all surface files there. Throws Error when the run, its shape library or that step is missing,
-/// or when the library is no longer the one that ran. `progressed` is told of the checkpoints.
+/// or when the library is no longer the one that ran, or when one file needs more memory than there
+/// is. `announce` gets what a file takes before the first is made, `progressed` the number of
+/// checkpoints done.
 SurfaceFiles write_run_surfaces(
     const RunFolder& folder, std::optional<std::uint64_t> step,
+    const std::function<void(const std::string& size)>& announce = {},
     const std::function<void(std::size_t done, std::size_t total)>& progressed = {});
 
 }  // namespace reckon

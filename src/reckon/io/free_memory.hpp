@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace reckon {
+
+/// What this process may still take: what the system has available, or its own limit [bytes]. The
+/// largest number where the system does not say.
+[[nodiscard]] std::uint64_t free_memory();
+
+/// Throws Error when `what` needs more memory than there is, before it is asked for.
+void require_memory(std::uint64_t bytes, const std::string& what, const std::string& fix);
+
+}  // namespace reckon
