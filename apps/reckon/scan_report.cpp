@@ -76,6 +76,7 @@ friction = 0
 [contact]
 law = "area"
 master = "both"
+allow_inside = true
 normal_stiffness = "{:.4g} N/m^3"
 
 [body]

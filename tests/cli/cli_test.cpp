@@ -32,6 +32,33 @@ TEST_F(CliTest, HelpAndVersion) {
   EXPECT_EQ(reckon({"--help"}).code, 0);
 }
 
+/// What takes more memory than there is gets refused before it is made, and what takes much is
+/// said.
+TEST_F(CliTest, SizesAreHeldAgainstTheMemory) {
+  std::string many = scene_text(usual);
+  many.replace(many.find("count = 24"), 10, "count = 100000000");
+  write("many.toml", many);
+  const Outcome fill = outcome_of(
+      start_line({"/bin/sh", "-c",
+                  "ulimit -v 16000000; exec " RECKON_PROGRAM " check many.toml --threads 1"}));
+  EXPECT_EQ(fill.code, 1) << fill.err;
+  EXPECT_NE(fill.err.find("100000000 grains would take"), std::string::npos) << fill.err;
+
+  ASSERT_EQ(reckon({"run", "scene.toml", "--steps", "2", "--threads", "1"}).code, 0);
+  const Outcome surfaces = reckon({"surfaces", "scene.run"});
+  EXPECT_EQ(surfaces.code, 0) << surfaces.err;
+  EXPECT_NE(surfaces.err.find(" triangles: "), std::string::npos) << surfaces.err;
+}
+
+/// More threads than the system starts must not end the program.
+TEST_F(CliTest, TheEnvironmentMayAskForAnyNumberOfThreads) {
+  const Outcome outcome =
+      outcome_of(start_line({"/usr/bin/env", "OMP_NUM_THREADS=100000", RECKON_PROGRAM, "check",
+                             "scene.toml", "--timing", "0"}));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("on 1024 threads"), std::string::npos) << outcome.out;
+}
+
 TEST_F(CliTest, BenchComparesWithThePlainAlgorithm) {
   const Outcome outcome = reckon({"bench", "paper-592", "--size", "small", "--json", "--quiet"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -158,7 +185,8 @@ TEST_F(CliTest, CheckSaysWhatTheRunWillDo) {
 TEST_F(CliTest, CheckWarnsOfWhatWillBlowUp) {
   const auto said_of = [&](const std::string& scene) {
     write("odd.toml", scene);
-    return reckon({"check", "odd.toml", "--timing", "0"}).out;
+    const Outcome outcome = reckon({"check", "odd.toml", "--timing", "0"});
+    return outcome.out + outcome.err;
   };
   const std::string usual_text = said_of(scene_text(usual));
   EXPECT_EQ(usual_text.find("DEEP"), std::string::npos) << usual_text;
@@ -168,7 +196,11 @@ TEST_F(CliTest, CheckWarnsOfWhatWillBlowUp) {
   std::string outside = scene_text(usual);
   outside.replace(outside.find("low = [0"), 8, "low = [-0.01");
   const std::string beyond = said_of(outside);
-  EXPECT_NE(beyond.find("DEEP"), std::string::npos) << beyond;
+  EXPECT_NE(beyond.find("is beyond wall \"box.x-\""), std::string::npos) << beyond;
+  outside.replace(outside.find("restitution"), 0, "allow_inside = true\n");
+  const std::string allowed = said_of(outside);
+  EXPECT_NE(allowed.find("DEEP"), std::string::npos) << allowed;
+  EXPECT_NE(allowed.find("WARNING"), std::string::npos) << allowed;
 }
 
 TEST_F(CliTest, RunsAndRefusesToRunOverARun) {

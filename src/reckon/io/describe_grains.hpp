@@ -138,7 +138,7 @@ void describe(Visitor& v, GrainsConfig& grains) {
          grains.library);
   v.number({.name = "voxel",
             .unit = "m",
-            .range = above(0),
+            .range = {.low = 1e-30, .high = 1e30},
             .meaning = "Length of a voxel: the unit of legacy morphology and position files."},
            grains.voxel);
   v.one_of(Presence::exactly_one, {"fill", "place", "files", "table"}, grains.placement.index(),

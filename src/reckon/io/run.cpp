@@ -37,8 +37,9 @@ double seconds_since(Clock::time_point start) {
 }
 
 constexpr std::uint64_t rest_interval_without_history = 100;  // steps
-constexpr std::uint64_t vote_interval = 16;  // steps; a vote costs all ranks a wait
-constexpr double log_interval = 60;          // [s]
+constexpr std::uint64_t vote_interval = 16;      // steps; a vote costs all ranks a wait
+constexpr double log_interval = 60;              // [s]
+constexpr std::uint64_t membrane_interval = 50;  // steps between looks for grains outside
 
 /// Which rank has each grain, by id, from the ids that this rank has. Whole on the root.
 /// Collective.
@@ -205,6 +206,7 @@ class Session {
     const std::uint64_t step = progress_.step;
     bool rests = false;
     const bool stage_ends = stage_is_over();
+    if (stage_ends || is_due(step, membrane_interval)) require_grains_in_membrane();
     if (stage_ends || schedule_.history_due(step)) append_history();
     if (is_due(step, rest_interval())) rests = rests_after_history();
     if (stage_ends || schedule_.fields_due(step)) write_fields();
@@ -219,6 +221,29 @@ class Session {
           fmt::format("step {} of {}, {:.6g} s simulated", step, progress_.steps, progress_.time));
     }
     return rests;
+  }
+
+  /// A sample that has lost a grain is no sample any more. What it has come to is written first.
+  void require_grains_in_membrane() {
+    const std::optional<GrainOutside> lost = simulation_.grain_outside_membrane();
+    if (!lost) return;
+    append_history();
+    write_fields();
+    save_checkpoint();
+    on_root(ranks_, [&] { files_->finish_writing(); });
+    const Vec3& at = lost->position;
+    throw Error{
+        {.place = fmt::format(
+             "grain {}, step {}{}", lost->grain.get(), progress_.step,
+             has_stages() ? fmt::format(", stage \"{}\"", config_.stages[stage_index()].name)
+                          : std::string{}),
+         .problem = fmt::format("is outside the membrane, at ({:.6g}, {:.6g}, {:.6g}) m", at.x,
+                                at.y, at.z),
+         .reason =
+             "its nodes let the grain through, so what is measured of the sample means nothing "
+             "from here on",
+         .fix =
+             "Take a finer membrane.spacing (`reckon check` says which), or a stiffer membrane."}};
   }
 
   [[nodiscard]] std::uint64_t rest_interval() const {
@@ -368,6 +393,7 @@ RunReport run_scene(const SceneReading& reading, const LoadedScene& scene,
   on_root(ranks, [&] {
     files.emplace(reading, shared, prepared, steps, options, hooks);
     if (const auto coarse = coarse_nodes(shared)) files->note("COARSE: " + *coarse);
+    for (const std::string& warning : scene.warnings) files->note("WARNING: " + warning);
   });
   const bool resumed = ranks.any(files && files->resumed());
   Session session{

@@ -85,6 +85,13 @@ void estimate_memory(RunPlan& plan) {
       sizeof(Pair) + sizeof(PairForce) + 2 * sizeof(SpringRange) + 2 * sizeof(PairsOfGrain::Entry);
   constexpr std::uint64_t springs = 2 * nodes_per_pair * sizeof(NodeSpring);
   plan.memory_grains = plan.grains * (grain + listed_per_grain * pair + pairs_per_grain * springs);
+  constexpr std::uint64_t membrane_node =
+      3 * sizeof(MembraneNode) + 2 * sizeof(MembraneTouch) + 2 * sizeof(MembraneSpring);
+  plan.memory_grains += plan.membrane_nodes * membrane_node;
+}
+
+std::uint64_t memory_of(const RunPlan& plan) {
+  return plan.memory_shapes + plan.memory_grains + plan.memory_surfaces;
 }
 
 /// How often something happens from step 1 to the end, when the end counts anyhow.
@@ -110,8 +117,10 @@ void estimate_output(const LoadedScene& scene, std::uint64_t row_bytes, RunPlan&
       // Marching cubes cuts about two and a half triangles per square of the grid.
       const ShapeSummary& shape = scene.shapes[grain.shape.get()];
       const double spacing = shape.outline.spacing;
-      frame += static_cast<std::uint64_t>(2.5 * shape.node_area / (spacing * spacing) * triangle);
+      plan.memory_surfaces +=
+          static_cast<std::uint64_t>(2.5 * shape.node_area / (spacing * spacing) * triangle);
     }
+    frame += plan.memory_surfaces;
   }
   const std::uint64_t checkpoint =
       plan.grains * (grain_state + pairs_per_grain * nodes_per_pair * spring);
@@ -180,6 +189,7 @@ RunPlan plan_run(const LoadedScene& scene, double timing_seconds) {
       scene.shapes[scene.grains[prepared.time_step.limiting.get()].shape.get()].name;
   plan.steps = prepared.steps;
   plan.stages = plan_stages(scene, prepared.time_step.step);
+  plan.warnings = scene.warnings;
   plan.simulated_time = static_cast<double>(plan.steps) * prepared.time_step.step;
   estimate_memory(plan);
   plan.history_rows = 1 + occasions(plan.steps, scene.config.output.history_interval);
@@ -255,12 +265,12 @@ std::string plan_text(const RunPlan& plan) {
   line("steps", fmt::format("{}{}, {:.6g} s simulated", plan.stages.empty() ? "" : "at most ",
                             human_count(plan.steps), plan.simulated_time));
   line("memory", fmt::format("about {} besides the program itself ({} of shapes)",
-                             human_bytes(plan.memory_shapes + plan.memory_grains),
-                             human_bytes(plan.memory_shapes)));
+                             human_bytes(memory_of(plan)), human_bytes(plan.memory_shapes)));
   line("output", fmt::format("about {}: {} history rows, {} ParaView frames, {} checkpoint{}",
                              human_bytes(plan.output_bytes), human_count(plan.history_rows),
                              human_count(plan.frames), human_count(plan.checkpoints),
                              plan.checkpoints == 1 ? "" : "s"));
+  for (const std::string& warning : plan.warnings) line("WARNING", warning);
   if (plan.trial_failure) {
     line("trial", "FAILED in the first steps: " + *plan.trial_failure);
   } else {
@@ -314,7 +324,7 @@ std::string plan_json(const RunPlan& plan) {
   if (!plan.stages.empty()) write_stages(json, plan.stages);
   json.value("steps", plan.steps);
   json.value("simulated_time_s", plan.simulated_time);
-  json.value("memory_bytes", plan.memory_shapes + plan.memory_grains);
+  json.value("memory_bytes", memory_of(plan));
   json.value("history_rows", plan.history_rows);
   json.value("frames", plan.frames);
   json.value("checkpoints", plan.checkpoints);
@@ -323,6 +333,9 @@ std::string plan_json(const RunPlan& plan) {
   json.value("timed_steps", plan.timed_steps);
   json.value("seconds_per_step", plan.seconds_per_step);
   json.value("duration_s", plan.duration);
+  json.begin_array("warnings");
+  for (const std::string& warning : plan.warnings) json.value(warning);
+  json.end();
   if (plan.trial_failure) json.value("trial_failure", *plan.trial_failure);
   json.end();
   return json.text();

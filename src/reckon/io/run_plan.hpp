@@ -45,18 +45,20 @@ struct RunPlan {
   std::uint64_t steps{0};    ///< with stages, at most
   double simulated_time{0};  ///< [s]
 
-  std::uint64_t memory_shapes{0};  ///< [bytes]
-  std::uint64_t memory_grains{0};  ///< with pair lists and springs [bytes]
+  std::uint64_t memory_shapes{0};    ///< [bytes]
+  std::uint64_t memory_grains{0};    ///< with pair lists and springs [bytes]
+  std::uint64_t memory_surfaces{0};  ///< of one file of output.surfaces [bytes]
   std::uint64_t history_rows{0};
   std::uint64_t frames{0};
   std::uint64_t checkpoints{0};
   std::uint64_t output_bytes{0};  ///< estimate of the run folder
 
   int threads{1};
-  std::uint64_t timed_steps{0};  ///< how many steps were made in memory to know the speed
-  double seconds_per_step{0};    ///< wall clock
-  double output_seconds{0};      ///< estimate for the whole run
-  double duration{0};            ///< estimate for the whole run [s]
+  std::uint64_t timed_steps{0};       ///< how many steps were made in memory to know the speed
+  double seconds_per_step{0};         ///< wall clock
+  double output_seconds{0};           ///< estimate for the whole run
+  double duration{0};                 ///< estimate for the whole run [s]
+  std::vector<std::string> warnings;  ///< see LoadedScene
   std::optional<std::string> trial_failure;  ///< what went wrong in the timed steps
 };
 

@@ -136,6 +136,13 @@ void describe(Visitor& v, ContactConfig& contact) {
                        "depends on the order of the grains); or of the grain with the smaller "
                        "bounding radius."},
            contact.master, masters);
+  if (v.visits(contact.allow_inside)) {  // not written when off: older runs go on
+    v.flag({.name = "allow_inside",
+            .meaning = "Lets a run begin although the centre of a grain lies inside another grain "
+                       "or beyond a wall, to let contacts push them apart. Without it such a scene "
+                       "is refused, since contacts are found at surfaces only."},
+           contact.allow_inside);
+  }
 }
 
 template <class Visitor>

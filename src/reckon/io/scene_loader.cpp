@@ -14,10 +14,13 @@
 
 #include "reckon/avatar/shape_catalog.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/io/free_memory.hpp"
 #include "reckon/io/nearest_name.hpp"
 #include "reckon/io/number_table.hpp"
 #include "reckon/io/placement_table.hpp"
+#include "reckon/io/scale_check.hpp"
 #include "reckon/io/stage_check.hpp"
+#include "reckon/io/start_check.hpp"
 #include "reckon/math/rotation.hpp"
 #include "reckon/simulation/placement.hpp"
 #include "reckon/simulation/stage_setup.hpp"
@@ -49,6 +52,7 @@ class Loader {
       check_time_step(scene);
       StageCheck{scene, [&](auto&&... text) { fault(text...); }}.run();
     }
+    if (reading_.faults.empty()) check_start(scene);
     std::stable_sort(
         reading_.faults.begin(), reading_.faults.end(),
         [](const SceneFault& a, const SceneFault& b) { return a.position < b.position; });
@@ -81,6 +85,17 @@ class Loader {
     }
   }
 
+  /// What only shows where all else is right.
+  void check_start(LoadedScene& scene) {
+    const auto to_faults = [&](auto&&... text) { fault(text...); };
+    std::vector<std::string> warnings;
+    const auto to_warnings = [&](std::string text) { warnings.push_back(std::move(text)); };
+    const double step = choose_time_step(scene.config, scene.grains, scene.shapes).step;
+    ScaleCheck{scene, step, to_faults, to_warnings}.run();
+    attempt("grains", [&] { StartCheck{scene, first_ids_, to_faults, to_warnings}.run(); });
+    scene.warnings = std::move(warnings);
+  }
+
   void check_outflows(const LoadedScene& scene) {
     for (const PlaneSurface& plane : outflow_planes(scene.config)) {
       const auto out =
@@ -96,6 +111,7 @@ class Loader {
   }
 
   void load_set(const GrainsConfig& set, const std::string& path, LoadedScene& scene) {
+    first_ids_.push_back(static_cast<std::uint32_t>(scene.grains.size()));
     if (set.library.empty()) return;  // its fault is known
     const std::size_t first_shape = shapes_.size();
     const bool loaded = attempt(path + ".library", [&] {
@@ -114,6 +130,8 @@ class Loader {
     if (const auto* fill = std::get_if<FillPlacement>(&set.placement)) {
       if (has_fault_below(path)) return;
       attempt(path + ".fill", [&] {
+        require_memory(2 * sizeof(GrainState) * std::uint64_t{fill->count},
+                       fmt::format("{} grains", fill->count), "Lower the count.");
         std::vector<ShapeView> views;
         for (const ShapeSummary& shape : shapes) views.emplace_back(shape.outline);
         placed = fill_region(*fill, views, ShapeId{static_cast<std::uint32_t>(first_shape)},
@@ -264,6 +282,7 @@ class Loader {
   SceneReading& reading_;
   std::shared_ptr<ShapeCatalog> catalog_{std::make_shared<ShapeCatalog>()};
   std::vector<ShapeSummary> shapes_;
+  std::vector<std::uint32_t> first_ids_;  // of the grains of each [[grains]] table
 };
 
 }  // namespace

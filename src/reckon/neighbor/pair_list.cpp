@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "reckon/neighbor/linked_bins.hpp"
@@ -132,6 +133,34 @@ std::vector<Pair> find_pairs_in_cell(std::span<const GrainId> ids, std::span<con
   };
   pairs.erase(std::unique(pairs.begin(), pairs.end(), same), pairs.end());
   return pairs;
+}
+
+void visit_pairs(std::span<const Vec3> positions, std::span<const double> radii,
+                 const PeriodicCell* cell,
+                 const std::function<bool(std::uint32_t, std::uint32_t)>& visit) {
+  if (positions.empty()) return;
+  constexpr double rounding = 1 + 1e-9;
+  const double reach = 2 * *std::max_element(radii.begin(), radii.end()) * rounding;
+  std::optional<Images> images;
+  if (cell != nullptr) images.emplace(positions, radii, *cell, reach);
+  const std::span<const Vec3> places =
+      images ? std::span{std::as_const(images->positions)} : positions;
+  const std::span<const double> sizes = images ? std::span{std::as_const(images->radii)} : radii;
+  const LinkedBins bins{places, sizes, 0};
+  const auto slot_of = [&](std::uint32_t n) { return images ? images->slots[n] : n; };
+  const auto count = static_cast<std::uint32_t>(places.size());
+  bool more = true;
+  for (std::uint32_t n = 0; n < count && more; ++n) {
+    bins.for_each_partner(n, [&](std::uint32_t m) {
+      const std::uint32_t s = slot_of(n);
+      const std::uint32_t t = slot_of(m);
+      if (!more || s == t) return;
+      const Vec3 apart =
+          cell != nullptr ? cell->branch(positions[s], positions[t]) : positions[s] - positions[t];
+      const double meeting = radii[s] + radii[t];
+      if (squared_norm(apart) < meeting * meeting) more = visit(s, t);
+    });
+  }
 }
 
 PairsOfGrain index_pairs(std::span<const Pair> pairs, std::span<const std::uint32_t> by_ids,

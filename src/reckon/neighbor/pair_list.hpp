@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -41,6 +42,13 @@ struct Pair {
                                                    std::span<const Vec3> positions,
                                                    std::span<const double> radii, double skin,
                                                    std::size_t owned, const PeriodicCell& cell);
+
+/// Visits, one by one and without listing them, the slots of pairs whose bounding spheres meet,
+/// until `visit` returns false: memory follows the grains however many stand in one place. With a
+/// cell, between nearest images, and a pair may come more than once.
+void visit_pairs(std::span<const Vec3> positions, std::span<const double> radii,
+                 const PeriodicCell* cell,
+                 const std::function<bool(std::uint32_t, std::uint32_t)>& visit);
 
 /// Appends the pair of slots `s` and `t` when their spheres come within `skin` of each other.
 void add_if_near(std::vector<Pair>& pairs, std::span<const GrainId> ids,

@@ -46,6 +46,7 @@ struct ContactConfig {
   std::optional<std::uint32_t>
       node_cap;  ///< linear: pairs with more touching nodes are scaled by cap/n
   MasterRule master{MasterRule::both};
+  bool allow_inside{false};  ///< grains may begin inside each other or beyond walls
 };
 
 /// Cement between grains; see contact/bond_law.hpp.

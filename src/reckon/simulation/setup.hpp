@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "reckon/avatar/library_file.hpp"
@@ -22,6 +23,7 @@ struct LoadedScene {
   ShapeStore::Read read_shape;          ///< brings the rest of a shape
   std::vector<GrainState> grains;       ///< as placed, sorted by id, at rest or as set
   std::vector<Vec3> own_accelerations;  ///< by grain id; empty: none [m/s^2]
+  std::vector<std::string> warnings;    ///< what may make results wrong, a sentence each
 };
 
 /// A scene made ready to run.
