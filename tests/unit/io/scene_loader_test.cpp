@@ -43,7 +43,7 @@ TEST_F(SceneLoaderTest, PlacesGrainsByHand) {
       "[[grains.place]]\nposition = [0, 0, 0]\n"
       "[[grains.place]]\nshape = 'sphere'\nposition = [0, 0, 9]\nfixed = true\n"
       "[[grains]]\nlibrary = 'grains.h5'\n"
-      "[[grains.place]]\nposition = [0, 0, 0]\n");
+      "[[grains.place]]\nposition = [5, 0, 0]\n");
   ASSERT_EQ(scene.grains.size(), 4U);
   EXPECT_EQ(scene.shapes.size(), 4U);
   EXPECT_EQ(scene.grains[0].orientation, (Quaternion{0, 0, 1, 0}));
