@@ -6,8 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -180,27 +178,13 @@ std::string roff_block(std::string_view text) { return ".PP\n.nf\n" + roff(text)
 
 void use_help_format(CLI::App& root) { root.formatter(std::make_shared<HelpFormatter>()); }
 
-void refuse_odd_numbers(CLI::App& root) {
-  for (CLI::Option* option : root.get_options([](const CLI::Option*) { return true; })) {
-    const std::string type = option->get_type_name();
-    const std::string name = type.substr(0, type.find(':'));
-    const auto refuse = [&](auto is_odd, const char* what) {
-      option->check([=](const std::string& given) {
-        return is_odd(given) ? fmt::format("{} is not {}", given, what) : std::string{};
-      });
-    };
-    if (name == "FLOAT") {
-      refuse(
-          [](const std::string& given) { return std::isnan(std::strtod(given.c_str(), nullptr)); },
-          "a number");
-    } else if (name == "UINT") {
-      refuse([](const std::string& given) { return given.starts_with('-'); },
-             "a whole number from 0 on");
-    }
-  }
-  for (CLI::App* command : root.get_subcommands([](const CLI::App*) { return true; })) {
-    refuse_odd_numbers(*command);
-  }
+std::vector<std::string> option_choices(const CLI::Option& option) {
+  return choices_of(option.get_type_name());
+}
+
+std::string option_summary(const CLI::Option& option) {
+  const OptionText text = text_of(option);
+  return text.value.empty() ? text.meaning : fmt::format("{}: {}", text.value, text.meaning);
 }
 
 std::string commands_markdown(const CLI::App& root) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace reckon::app {
 
@@ -14,8 +16,10 @@ namespace reckon::app {
 
 /// Lets `--help` of the program, and of what is added to it afterwards, say the same.
 void use_help_format(CLI::App& root);
-/// What CLI11 would take as it is: no option takes NaN, and none that counts takes -1 for 2^64 - 1.
-void refuse_odd_numbers(CLI::App& root);
+/// The value that an option takes and what it means, in the words of `--help`.
+[[nodiscard]] std::string option_summary(const CLI::Option& option);
+/// The words that an option takes; none where it takes others too.
+[[nodiscard]] std::vector<std::string> option_choices(const CLI::Option& option);
 /// docs/reference/commands.md: every command with its options.
 [[nodiscard]] std::string commands_markdown(const CLI::App& root);
 /// The same as a manual page, reckon(1), in the macros of groff_man(7).

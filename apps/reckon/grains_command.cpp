@@ -28,8 +28,17 @@ constexpr Dimension length_dimension{.mass = 0, .length = 1, .time = 0, .angle =
                .fix = std::move(fix)}};
 }
 
+/// A quantity; what is wrong with it is said of the option.
+Quantity parse_of_option(const std::string& option, std::string_view text) {
+  try {
+    return parse_quantity(text);
+  } catch (const Error& error) {
+    refuse(option, error.text().problem, error.text().reason, error.text().fix);
+  }
+}
+
 double parse_positive_number(const std::string& option, std::string_view text) {
-  const Quantity quantity = parse_quantity(text);
+  const Quantity quantity = parse_of_option(option, text);
   if (quantity.dimension != Dimension{} || !(quantity.value > 0)) {
     refuse(option, fmt::format("'{}' is not a positive number", text), {}, "Give it without unit.");
   }
@@ -39,7 +48,7 @@ double parse_positive_number(const std::string& option, std::string_view text) {
 }  // namespace
 
 double parse_length(const std::string& option, std::string_view text) {
-  const Quantity quantity = parse_quantity(text);
+  const Quantity quantity = parse_of_option(option, text);
   if (quantity.dimension == Dimension{}) {
     refuse(option, fmt::format("'{}' has no unit", text), "it is a length",
            fmt::format("Write {}mm or {}m, say.", text, text));
@@ -69,12 +78,12 @@ std::vector<double> parse_lengths(const std::string& option, std::string_view te
 }
 
 double parse_length_unit(const std::string& option, const std::string& text) {
-  const Unit unit = parse_unit(text);
-  if (unit.dimension != length_dimension) {
+  const Quantity one = parse_of_option(option, "1 " + text);
+  if (one.dimension != length_dimension) {
     refuse(option, fmt::format("'{}' is not a unit of length", text), {},
            "Give um, mm, m or the like.");
   }
-  return parse_quantity("1 " + text).value;
+  return one.value;
 }
 
 void add_storage_option(CLI::App& command, ShapeStorage& storage) {

@@ -11,7 +11,6 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 #include "analyse_command.hpp"
 #include "bench_command.hpp"
@@ -20,13 +19,13 @@
 #include "diff_command.hpp"
 #include "exit_codes.hpp"
 #include "grains_command.hpp"
+#include "option_faults.hpp"
 #include "paraview_command.hpp"
 #include "reckon/core/build_info.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/failure_text.hpp"
 #include "reckon/core/hdf5_handle.hpp"
 #include "reckon/core/utf8.hpp"
-#include "reckon/io/nearest_name.hpp"
 #include "reckon/io/run.hpp"
 #include "reckon/parallel/communicator.hpp"
 #include "reference_command.hpp"
@@ -44,28 +43,6 @@ std::string version() {
   const BuildInfo build = build_info();
   return fmt::format("reckon {} ({}, {}, {})", build.version, build.revision, build.compiler,
                      build.flags);
-}
-
-/// The command that was being parsed, or the program itself.
-std::string help_of(const CLI::App& app) {
-  const auto used = app.get_subcommands();
-  return used.empty() ? app.get_name() + " --help" : app.get_name() + ' ' + help_of(*used.front());
-}
-
-/// CLI11 would only say that a command is missing; a typo deserves the name that was meant.
-void require_known_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (command->get_name() == argv[1]) return;
-    names.push_back(command->get_name());
-  }
-  const auto near = nearest_name(argv[1], names);
-  throw Error{{.place = {},
-               .problem = fmt::format("there is no command \"{}\"", argv[1]),
-               .reason = {},
-               .fix = near ? fmt::format("Did you mean `reckon {}`?", *near)
-                           : fmt::format("There are {}.", fmt::join(names, ", "))}};
 }
 
 /// Some libraries read their settings before main, so the program starts itself once more with what
@@ -162,7 +139,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
   } catch (const CLI::Success& asked_for_help) {
     return ranks.is_root() ? app.exit(asked_for_help) : success;
   } catch (const CLI::ParseError& error) {
-    return complain(ranks, fmt::format("{}\nSee: {}", error.what(), help_of(app)), input_at_fault);
+    return complain(ranks, explain(error, app), input_at_fault);
   } catch (const RunFailure& error) {
     return end_failed(ranks, error.what(), run_failed);
   } catch (const std::exception& error) {

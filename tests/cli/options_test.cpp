@@ -45,6 +45,84 @@ TEST_F(OptionsTest, CountsAreNotNegative) {
   EXPECT_FALSE(std::filesystem::exists(root_ / "scan"));
 }
 
+TEST_F(OptionsTest, NumbersThatAreNearlyRightComeWithTheRightOne) {
+  const auto said = [&](const std::string& option, const std::string& value) {
+    return refusal({"run", "scene.toml", option, value});
+  };
+  const std::string help = "\nSee: reckon run --help\n";
+  EXPECT_EQ(said("--steps", "1e5"),
+            "reckon: error: --steps: 1e5 is not a whole number. Write 100000." + help);
+  EXPECT_EQ(said("--steps", "2.5"), "reckon: error: --steps: 2.5 is not a whole number" + help);
+  EXPECT_EQ(said("--steps", "10k"),
+            "reckon: error: --steps: 10k is not a whole number. Write 10000." + help);
+  EXPECT_EQ(said("--steps", "1,000,000"),
+            "reckon: error: --steps: 1,000,000 is not a whole number. Write 1000000." + help);
+  EXPECT_EQ(said("--safety-minutes", "0,5"),
+            "reckon: error: --safety-minutes: 0,5 is not a number. Decimals have a point: write "
+            "0.5." +
+                help);
+  EXPECT_EQ(
+      said("--safety-minutes", "10min"),
+      "reckon: error: --safety-minutes: 10min is not a number. Write it without a unit." + help);
+  EXPECT_NE(refusal({"grains", "generate", "--count", "2", "--d50", "0,5mm", "-o", "x.h5"})
+                .find("--d50: \"0,5mm\" cannot be read. Decimals have a point: write 0.5mm."),
+            std::string::npos);
+  EXPECT_NE(refusal({"grains", "generate", "--count", "2", "--d50", "1mm", "--roundness", "50%",
+                     "-o", "x.h5"})
+                .find("--roundness: 50% is not a number. Write 0.5."),
+            std::string::npos);
+}
+
+TEST_F(OptionsTest, AnOptionThatIsNotThereComesWithTheNearest) {
+  const auto said = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"run", "scene.toml"});
+    const std::string text = refusal(arguments);
+    return text.substr(0, text.find('\n'));
+  };
+  const std::string no_option = "reckon: error: `reckon run` has no option ";
+  EXPECT_EQ(said({"--thread", "2"}), no_option + "--thread. Did you mean --threads?");
+  EXPECT_EQ(said({"--Threads=2"}), no_option + "--Threads. Did you mean --threads?");
+  EXPECT_EQ(said({"-threads", "2"}), no_option + "-threads. Did you mean --threads?");
+  EXPECT_EQ(said({"--safety_minutes", "2"}),
+            no_option + "--safety_minutes. Did you mean --safety-minutes?");
+  EXPECT_EQ(said({"--timing", "2"}), no_option + "--timing. `reckon check` has it.");
+  EXPECT_EQ(said({"--xyzzy"}).find(no_option + "--xyzzy. There are --"), 0U);
+  EXPECT_EQ(said({"threads=2"}),
+            "reckon: error: `reckon run` has no use for \"threads=2\". Did you mean --threads?");
+  EXPECT_EQ(
+      said({"--threads"}).find("reckon: error: --threads needs a value: N: Number of threads"), 0U);
+  EXPECT_NE(refusal({"grains", "generate", "--count", "2", "--d50", "1", "mm", "-o", "x.h5"})
+                .find("has no use for \"mm\". A number and its unit are one word: write 1mm"),
+            std::string::npos);
+}
+
+TEST_F(OptionsTest, AWordThatIsNotThereComesWithTheNearest) {
+  EXPECT_EQ(refusal({"grains", "export", "grains.h5", "--format", "slt", "--out", "x"}),
+            "reckon: error: --format: \"slt\" is none of vtp, stl. Did you mean stl?\nSee: reckon "
+            "grains export --help\n");
+  EXPECT_NE(refusal({"grains", "generate", "--count", "2", "--d50", "1mm", "-o", "x.h5",
+                     "--storage", "bnad"})
+                .find("--storage: \"bnad\" is none of band, full. Did you mean band?"),
+            std::string::npos);
+  EXPECT_NE(refusal({"bench", "dence"}).find("Did you mean dense?"), std::string::npos);
+  EXPECT_EQ(refusal({"run"}),
+            "reckon: error: scene is missing: Scene file (TOML)\nSee: reckon run --help\n");
+  EXPECT_EQ(refusal({"run", "scene.toml", "--threads", "2", "--threads", "3"}),
+            "reckon: error: --threads is given more than once\nSee: reckon run --help\n");
+  EXPECT_NE(refusal({"check", "grains.h5"}).find("this is not a text. Give a scene"),
+            std::string::npos);
+}
+
+TEST_F(OptionsTest, ACommandThatIsNotThereComesWithTheNearest) {
+  EXPECT_EQ(refusal({"grains", "scann", "a"}),
+            "reckon: error: there is no command \"scann\". Did you mean `reckon grains scan`?\n");
+  EXPECT_EQ(refusal({"scene.toml"}),
+            "reckon: error: there is no command \"scene.toml\". Did you mean `reckon run "
+            "scene.toml`?\n");
+  EXPECT_EQ(refusal({"help"}),
+            "reckon: error: there is no command \"help\". Did you mean `reckon --help`?\n");
+}
+
 TEST_F(OptionsTest, AScanHasGraysThatItsTypeHolds) {
   const std::string said = refusal(
       {"grains", "scan", "scene.toml", "--voxel", "0.2mm", "--out", "scan", "--type", "uint8"});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 #include "reckon/io/describe_geometry.hpp"
@@ -54,7 +55,9 @@ void describe(Visitor& v, WallConfig& wall, const SceneConfig& scene) {
   v.rule(is_plain_name(wall.name), {"name"}, "`name` must be letters, digits, `_` and `-` only");
   std::size_t same_name = 0;
   for (const WallConfig& other : scene.walls) same_name += other.name == wall.name ? 1U : 0U;
-  v.rule(same_name <= 1, {"name"}, "no two walls may have the same name");
+  v.rule(same_name <= 1, {"name"}, "no two walls may have the same name",
+         '"' + wall.name + "\" names a wall above: write \"" + wall.name +
+             std::to_string(same_name) + "\", say.");
   v.one_of(Presence::exactly_one, {"plane", "box", "cylinder", "ledge"}, wall.geometry.index(),
            [&](std::size_t which) {
              if (which == 0) {
@@ -99,7 +102,8 @@ void describe(Visitor& v, WallConfig& wall, const SceneConfig& scene) {
            wall.shear_stiffness);
   v.rule(scene.contact.law != ContactLawKind::hertz ||
              !(wall.normal_stiffness || wall.shear_stiffness),
-         {"normal_stiffness", "shear_stiffness"}, "with law `hertz` walls are rigid: no stiffness");
+         {"normal_stiffness", "shear_stiffness"}, "with law `hertz` walls are rigid: no stiffness",
+         "Leave it out, or choose the law `area`.");
   v.flag({.name = "dashpot",
           .meaning = "Whether `contact.restitution` also damps contacts with this wall."},
          wall.dashpot);

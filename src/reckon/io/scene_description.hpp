@@ -90,7 +90,10 @@ void describe(Visitor& v, ContactConfig& contact) {
   }
   v.rule(!is_hertz || !(v.given("normal_stiffness") || v.given("shear_stiffness")),
          {"normal_stiffness", "shear_stiffness"},
-         "law `hertz` takes no stiffness but `young_modulus` and `poisson_ratio`");
+         "law `hertz` takes no stiffness but `young_modulus` and `poisson_ratio`",
+         "Write `young_modulus = \"70 GPa\"` and `poisson_ratio = 0.25`, say, instead of it; or "
+         "choose "
+         "the law `area`.");
   if (v.visits(is_hertz)) {
     v.number({.name = "young_modulus",
               .unit = "Pa",
@@ -107,7 +110,8 @@ void describe(Visitor& v, ContactConfig& contact) {
   }
   v.rule(is_hertz || !(v.given("young_modulus") || v.given("poisson_ratio")),
          {"young_modulus", "poisson_ratio"},
-         "`young_modulus` and `poisson_ratio` belong to law `hertz`");
+         "`young_modulus` and `poisson_ratio` belong to law `hertz`",
+         "Write `law = \"hertz\"`, or give `normal_stiffness` instead.");
   v.number({.name = "restitution",
             .unit = "1",
             .range = {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false},
@@ -307,7 +311,7 @@ void describe(Visitor& v, SceneConfig& scene) {
              .range = at_least(0),
              .meaning = "Keys all random numbers; one seed gives one result."},
             scene.seed);
-  v.table({.name = "material", .meaning = "What grains are made of."},
+  v.table({.name = "material", .meaning = "What all grains are made of: one material."},
           [&] { describe(v, scene.material); });
   v.table({.name = "contact", .meaning = "How touching grains push."},
           [&] { describe(v, scene.contact); });

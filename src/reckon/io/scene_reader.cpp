@@ -19,6 +19,8 @@
 #include <utility>
 
 #include "reckon/core/error.hpp"
+#include "reckon/io/key_advice.hpp"
+#include "reckon/io/near_misses.hpp"
 #include "reckon/io/nearest_name.hpp"
 #include "reckon/io/scene_description.hpp"
 #include "reckon/io/toml_syntax.hpp"
@@ -78,7 +80,10 @@ class Reader {
     const toml::node* node = find(key);
     if (!node) return;
     const auto* read = node->as_integer();
-    if (!read) return fault(key, *node, "expected a whole number, found " + kind_of(*node));
+    if (!read) {
+      return fault(key, *node, "expected a whole number, found " + kind_of(*node),
+                   advice_on_integer(*node));
+    }
     constexpr double most = std::min<double>(
         static_cast<double>(std::numeric_limits<Integer>::max()), static_cast<double>(INT64_MAX));
     if (!in_range(key, *node, static_cast<double>(read->get()))) return;
@@ -99,7 +104,10 @@ class Reader {
     const toml::node* node = find(key);
     if (!node) return;
     const auto* read = node->as_boolean();
-    if (!read) return fault(key, *node, "expected true or false, found " + kind_of(*node));
+    if (!read) {
+      return fault(key, *node, "expected true or false, found " + kind_of(*node),
+                   "Write true or false, without quotation marks.");
+    }
     value = read->get();
   }
 
@@ -107,7 +115,10 @@ class Reader {
     const toml::node* node = find(key);
     if (!node) return;
     const auto* read = node->as_string();
-    if (!read) return fault(key, *node, "expected a text, found " + kind_of(*node));
+    if (!read) {
+      return fault(key, *node, "expected a text, found " + kind_of(*node),
+                   "A text stands in quotation marks.");
+    }
     value = read->get();
   }
 
@@ -251,7 +262,8 @@ class Reader {
     for (const std::size_t n : there) body(n);
   }
 
-  void rule(bool kept, std::initializer_list<std::string_view> names, std::string_view statement) {
+  void rule(bool kept, std::initializer_list<std::string_view> names, std::string_view statement,
+            std::string_view fix = {}) {
     std::string_view last;
     for (const std::string_view name : names) {
       if (faulty(name)) return;
@@ -259,7 +271,7 @@ class Reader {
       if (last.empty() || key_position(name) > key_position(last)) last = name;
     }
     if (kept || last.empty()) return;
-    fault_at(key_position(last), path_of(last), std::string{statement});
+    fault_at(key_position(last), path_of(last), std::string{statement}, std::string{fix});
     frames_.back().faulty.insert(std::string{last});
   }
 
@@ -350,12 +362,24 @@ class Reader {
       const std::string found = quantity.dimension == Dimension{}
                                     ? "has no unit"
                                     : "is in " + describe(quantity.dimension);
-      fault(key, node, fmt::format("\"{}\" {}, but {} is needed", text, found, in_unit(key)));
+      fault(key, node, fmt::format("\"{}\" {}, but {} is needed", text, found, in_unit(key)),
+            advice_on_dimension(key, quantity, text));
     } catch (const Error& error) {
       fault(key, node, fmt::format("expected {}, but {}", in_unit(key), error.text().problem),
             error.text().fix);
     }
     return std::nullopt;
+  }
+
+  static std::string advice_on_integer(const toml::node& node) {
+    if (const auto* real = node.as_floating_point()) {
+      return advice_on_whole_number(fmt::format("{}", real->get()));
+    }
+    const auto* text = node.as_string();
+    const bool quoted = text && !text->get().empty() &&
+                        text->get().find_first_not_of("0123456789") == std::string::npos;
+    if (quoted) return fmt::format("Write {}, without quotation marks.", text->get());
+    return text ? advice_on_whole_number(text->get()) : std::string{};
   }
 
   template <std::size_t count>
@@ -366,7 +390,13 @@ class Reader {
     if (!array || array->size() != count) {
       const std::string found =
           array ? fmt::format("an array of {}", array->size()) : kind_of(*node);
-      fault(key, *node, fmt::format("expected {} numbers {}, found {}", count, form, found));
+      std::string fix;
+      if (array && array->size() > count) {
+        fix = "Commas separate numbers: decimals have a point.";
+      } else if (!array && count == 3) {
+        fix = "Write three numbers, for example [0, 0, -9.81].";
+      }
+      fault(key, *node, fmt::format("expected {} numbers {}, found {}", count, form, found), fix);
       return false;
     }
     bool whole = true;
@@ -403,27 +433,9 @@ class Reader {
     for (const auto& [key, node] : *frame.table) {
       const std::string name{key.str()};
       if (std::find(frame.known.begin(), frame.known.end(), name) != frame.known.end()) continue;
-      fault_at(position_of(key.source()), path_of(name), "unknown key", advice_for(name));
+      fault_at(position_of(key.source()), path_of(name), "unknown key",
+               advice_on_unknown_key(name, frame.known));
     }
-  }
-
-  /// What may have been meant by an unknown key: a likeness in its own table, else the same word
-  /// in another table.
-  [[nodiscard]] std::string advice_for(const std::string& name) const {
-    const Frame& frame = frames_.back();
-    if (const auto near = nearest_name(name, frame.known)) {
-      return fmt::format("Did you mean `{}`?", *near);
-    }
-    const SceneSchema schema = scene_schema();
-    for (const SchemaRow& row : schema.rows) {
-      if (row.name != name) continue;
-      return row.table.empty() ? fmt::format("`{}` belongs at the top, before any table.", name)
-                               : fmt::format("`{}` belongs in {}.", name, table_header(row.table));
-    }
-    std::vector<std::string> known = frame.known;
-    std::sort(known.begin(), known.end());
-    known.erase(std::unique(known.begin(), known.end()), known.end());
-    return fmt::format("Known here: {}.", fmt::join(known, ", "));
   }
 
   std::filesystem::path directory_;

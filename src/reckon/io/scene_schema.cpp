@@ -90,7 +90,8 @@ class Collector {
     alternative_ = outer;
     needed_ = needed_ || presence == Presence::exactly_one;
   }
-  void rule(bool, std::initializer_list<std::string_view>, std::string_view statement) {
+  void rule(bool, std::initializer_list<std::string_view>, std::string_view statement,
+            std::string_view = {}) {
     schema_.rules.push_back({table_, std::string{statement}});
   }
   [[nodiscard]] bool visits(bool) const { return true; }

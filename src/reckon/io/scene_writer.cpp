@@ -94,7 +94,8 @@ class Writer {
   void one_of(Presence, std::initializer_list<std::string_view>, std::size_t active, Body&& body) {
     body(active);
   }
-  void rule(bool, std::initializer_list<std::string_view>, std::string_view) {}
+  void rule(bool, std::initializer_list<std::string_view>, std::string_view,
+            std::string_view = {}) {}
   [[nodiscard]] bool visits(bool matters) const { return matters; }
   [[nodiscard]] bool given(std::string_view) const { return false; }
 

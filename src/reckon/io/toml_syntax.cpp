@@ -9,6 +9,8 @@
 #include <optional>
 #include <string_view>
 
+#include "reckon/io/near_misses.hpp"
+
 namespace reckon {
 namespace {
 
@@ -92,6 +94,10 @@ class KeyDepth {
 
 TomlSyntax parse_toml(std::string text) {
   TomlSyntax syntax;
+  if (text.find('\0') != std::string::npos) {
+    syntax.faults.push_back({{}, {}, "this is not a text", "Give a scene, a text in TOML."});
+    return syntax;
+  }
   // The parser nests a table for each part of a key and frees them by recursion.
   constexpr std::size_t most_parts = 16;
   if (const auto deep = KeyDepth{text}.find_deeper_than(most_parts)) {
@@ -114,6 +120,8 @@ TomlSyntax parse_toml(std::string text) {
     }
     const std::optional<LineRange> line = find_line(text, last_line);
     if (!line) return syntax;
+    syntax.faults.back().fix =
+        advice_on_toml_line(std::string_view{text}.substr(line->begin, line->end - line->begin));
     const std::size_t first = text.find_first_not_of(" \t", line->begin);
     header_lost = header_lost || (first < line->end && text[first] == '[');
     std::fill(text.begin() + static_cast<std::ptrdiff_t>(line->begin),

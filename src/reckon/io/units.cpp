@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "reckon/core/error.hpp"
+#include "reckon/io/near_misses.hpp"
 
 namespace reckon {
 namespace {
@@ -151,8 +152,12 @@ Unit parse_unit(std::string_view text) {
     const int power = take_power(factor);
     const std::optional<Unit> known = find_symbol(factor);
     if (!known) {
+      const std::string advice = advice_on_unit(factor);
       refuse(factor.empty() ? "the unit has a missing part" : quoted(factor) + " is no known unit",
-             "Units are written like \"kg/m^3\", \"kN/m\", \"mm\", \"m/s^2\", \"deg\" or \"1/s\".");
+             !advice.empty()
+                 ? advice
+                 : "Units are written like \"kg/m^3\", \"kN/m\", \"mm\", \"m/s^2\", \"deg\" "
+                   "or \"1/s\".");
     }
     multiply(unit, *known, direction * power);
     if (end == std::string_view::npos) break;
@@ -167,7 +172,9 @@ Unit parse_unit(std::string_view text) {
   return unit;
 }
 
-Quantity parse_quantity(std::string_view text) {
+namespace {
+
+Quantity read_quantity(std::string_view text) {
   const std::string_view whole = trimmed(text);
   const auto number_end = [&] {
     std::size_t at = whole.find_first_not_of("+-0123456789.");
@@ -189,6 +196,18 @@ Quantity parse_quantity(std::string_view text) {
   const double value = *number * unit.factor;
   if (!std::isfinite(value)) refuse(quoted(text) + " is too large for a double");
   return {value, unit.dimension};
+}
+
+}  // namespace
+
+Quantity parse_quantity(std::string_view text) {
+  try {
+    return read_quantity(text);
+  } catch (const Error&) {
+    const std::string advice = advice_on_number(text);
+    if (advice.empty()) throw;
+    refuse(quoted(text) + " cannot be read", advice);
+  }
 }
 
 std::string describe(const Dimension& dimension) {

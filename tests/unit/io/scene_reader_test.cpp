@@ -188,7 +188,8 @@ TEST_F(SceneReaderTest, SuggestsTheNearestKeyOrItsTable) {
     return reading.faults.size() == 1 ? reading.faults[0].fix : "not one fault";
   };
   EXPECT_EQ(fix_of("[material]\ndensty = 1\n"), "Did you mean `density`?");
-  EXPECT_EQ(fix_of("friction = 1\n"), "`friction` belongs in [material].");
+  EXPECT_EQ(fix_of("friction = 1\n"),
+            "`friction` belongs in [material], [[wall]], [membrane] or [[stage]].");
   EXPECT_EQ(fix_of("[body]\nseed = 1\n"), "`seed` belongs at the top, before any table.");
   EXPECT_EQ(fix_of("[material]\ncolour = 1\n"), "Known here: density, density_scaling, friction.");
   EXPECT_EQ(
