@@ -142,6 +142,7 @@ def stages(mode):
     chosen = [
         ("source rules", tool("tools/source_rules.py")),
         ("links in the documents", tool("tools/doc_links.py")),
+        ("commands in the documents", tool("tools/doc_commands.py")),
         ("tests of the tools", tool_tests),
         ("format", formatting),
         ("shell scripts", scripts),
