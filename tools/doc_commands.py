@@ -8,7 +8,8 @@ blocks ```python of a page being one program. Comments in the source of a page s
 
     <!-- not run: REASON -->             before a block: the tests leave it out
     <!-- small: OLD -> NEW -->           in the tests, NEW stands for OLD in all blocks of the page
-    <!-- small: steps N, shapes M -->    in the tests, `reckon run` makes N steps, and `generate` M shapes
+    <!-- small: steps N, shapes M -->    in the tests, `reckon run` makes N steps, and `generate` M shapes; with
+                                         "plots 0" scripts find no matplotlib, as so few steps make no curve
     <!-- first:                          commands that the tests run at this place
     COMMANDS
     -->
@@ -43,7 +44,7 @@ class Block:
 class Page:
     blocks: list
     replacements: list  # (old, new)
-    limits: dict  # steps, shapes
+    limits: dict  # steps, shapes, plots
     complaints: list  # (line, text)
 
 

@@ -112,9 +112,14 @@ def main():
         print("skipped: built without the Python package")
         return 77
     checkout = lay_out(options.folder.absolute(), options.reckon, page.limits if options.small else {}, options.python)
+    packages = f"{checkout}/build/release/python"
+    if options.small and page.limits.get("plots") == 0:
+        (options.folder / "no_plots").mkdir()
+        (options.folder / "no_plots/matplotlib.py").write_text("raise ImportError\n", encoding="utf-8")
+        packages = f"{options.folder.absolute()}/no_plots:{packages}"
     environment = {**os.environ, "HOME": str(options.folder.absolute() / "home"),
                    "PATH": f"{checkout}/build/release/apps/reckon:{os.environ['PATH']}",
-                   "PYTHONPATH": f"{checkout}/build/release/python", "PYTHONDONTWRITEBYTECODE": "1"}
+                   "PYTHONPATH": packages, "PYTHONDONTWRITEBYTECODE": "1"}
     done = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=checkout, env=environment, check=False,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     (options.folder / "page.log").write_text(done.stdout, encoding="utf-8")

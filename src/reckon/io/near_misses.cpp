@@ -121,7 +121,8 @@ std::string advice_on_header(std::string_view bare) {
   if (first == std::string_view::npos || first > 2) return {};
   const auto last = bare.find_last_not_of(']');
   const std::string_view name = stripped(bare.substr(first, last - first + 1));
-  if (!std::all_of(name.begin(), name.end(), [](char c) { return is_word(c) || c == '.'; })) {
+  if (name.empty() ||
+      !std::all_of(name.begin(), name.end(), [](char c) { return is_word(c) || c == '.'; })) {
     return {};
   }
   return first == 2 ? fmt::format("Write [[{}]].", name) : fmt::format("Write [{}].", name);
