@@ -15,6 +15,7 @@
 #include "reckon/io/history.hpp"
 #include "reckon/io/run.hpp"
 #include "reckon/io/run_folder.hpp"
+#include "reckon/io/run_verdict.hpp"
 #include "reckon/io/saved_fields.hpp"
 #include "scene.hpp"
 #include "tables.hpp"
@@ -38,6 +39,16 @@ const char* word_of(RunEnd end) {
   return "";
 }
 
+/// `valid`, and `reasons` with a code and a text each.
+void add_verdict(const RunVerdict& verdict, py::dict& table) {
+  py::list reasons;
+  for (const VerdictReason& reason : verdict.reasons) {
+    reasons.append(py::make_tuple(reason.code, reason.text));
+  }
+  table["valid"] = verdict.valid();
+  table["reasons"] = reasons;
+}
+
 py::dict report_of(const RunReport& report) {
   py::dict told;
   told["end"] = word_of(report.end);
@@ -46,6 +57,7 @@ py::dict report_of(const RunReport& report) {
   told["wall_seconds"] = report.progress.wall_seconds;
   told["energy_error"] = report.energy_error;
   told["energy_turnover"] = report.energy_turnover;
+  add_verdict(report.verdict, told);
   told["last"] = table_of(report.measured, report.last.energy);
   told["stages"] = report.stages;
   return told;
@@ -127,6 +139,14 @@ void bind_runs(py::module_& module) {
   module.def(
       "_holds_run",
       [](const std::filesystem::path& folder) { return RunFolder{folder}.holds_run(); },
+      arg("folder"));
+  module.def(
+      "_verdict",
+      [](const std::filesystem::path& folder) {
+        py::dict table;
+        add_verdict(verdict_of(RunFolder{folder}), table);
+        return table;
+      },
       arg("folder"));
   module.def("_fields", &fields, arg("folder"), arg("step"));
 }

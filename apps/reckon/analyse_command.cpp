@@ -16,6 +16,7 @@
 #include "reckon/core/utf8.hpp"
 #include "reckon/io/json_writer.hpp"
 #include "reckon/io/run_analysis.hpp"
+#include "reckon/io/run_verdict.hpp"
 
 namespace reckon::app {
 
@@ -28,7 +29,8 @@ struct Options {
   bool json{false};
 };
 
-void print(const RunAnalysis& done) {
+void print(const RunAnalysis& done, const RunVerdict& verdict) {
+  fmt::print("{}", verdict_text(verdict));
   fmt::print("strain since step {}, around each grain\n", done.from);
   fmt::print("{:>12}  {:>12}  {:>12}  {:>12}\n", "step", "shear, mean", "shear, 90 %",
              "volumetric");
@@ -47,9 +49,10 @@ void print(const RunAnalysis& done) {
   }
 }
 
-std::string as_json(const RunAnalysis& done) {
+std::string as_json(const RunAnalysis& done, const RunVerdict& verdict) {
   JsonWriter json;
   json.begin_object();
+  write_verdict(json, verdict);
   json.value("from_step", done.from);
   json.begin_array("strains");
   for (const StrainSummary& strain : done.strains) {
@@ -84,10 +87,11 @@ void analyse(const Options& options) {
   for (const std::string& reason : done.left_out) {
     std::fputs(printable(fmt::format("left out: {}\n", reason)).c_str(), stderr);
   }
+  const RunVerdict verdict = verdict_of(RunFolder{options.folder});
   if (options.json) {
-    fmt::print("{}", as_json(done));
+    fmt::print("{}", as_json(done, verdict));
   } else {
-    print(done);
+    print(done, verdict);
   }
 }
 

@@ -16,6 +16,7 @@
 #include "reckon/core/file.hpp"
 #include "reckon/core/utf8.hpp"
 #include "reckon/io/human.hpp"
+#include "reckon/io/run_verdict.hpp"
 #include "reckon/report/page.hpp"
 
 namespace reckon::app {
@@ -32,6 +33,9 @@ void report(const Options& options) {
   std::filesystem::path output = options.output;
   if (output.empty()) output = runs.front().report();
   for (const RunFolder& run : runs) {
+    if (const std::string verdict = verdict_text(verdict_of(run)); !verdict.empty()) {
+      fmt::print("{}: {}", run.root().string(), verdict);
+    }
     const std::size_t saved = run.field_steps("grains").size();
     const std::size_t shown = std::min(saved, options.limits.frames);
     if (shown == saved) continue;

@@ -61,11 +61,11 @@ std::string result_text(const RunReport& report, const std::filesystem::path& fo
   const RunProgress& progress = report.progress;
   const Measurement& last = report.last;
   const auto made = static_cast<double>(progress.step - progress.first_step);
-  std::string text =
-      fmt::format("{} at step {} ({:.6g} s simulated) after {}, {:.3g} steps/s\n",
-                  report.end == RunEnd::at_rest ? "came to rest" : "complete", progress.step,
-                  progress.time, human_duration(progress.wall_seconds),
-                  progress.wall_seconds > 0 ? made / progress.wall_seconds : 0);
+  std::string text = verdict_text(report.verdict);
+  text += fmt::format("{} at step {} ({:.6g} s simulated) after {}, {:.3g} steps/s\n",
+                      report.end == RunEnd::at_rest ? "came to rest" : "complete", progress.step,
+                      progress.time, human_duration(progress.wall_seconds),
+                      progress.wall_seconds > 0 ? made / progress.wall_seconds : 0);
   text += fmt::format(
       "  contacts {} ({} with walls), coordination number {:.3g}, unbalanced ratio {:.3g}\n",
       last.contacts + last.wall_contacts, last.wall_contacts, last.coordination,
@@ -89,6 +89,7 @@ void print_json(const RunReport& report, const SceneConfig& scene,
   const RunProgress& progress = report.progress;
   JsonWriter json;
   json.begin_object();
+  write_verdict(json, report.verdict);
   json.value("folder", folder.string());
   json.value("status", report.end == RunEnd::at_rest ? "at rest" : "complete");
   json.value("nothing_to_do", report.end == RunEnd::nothing_to_do);
@@ -109,6 +110,9 @@ void print_json(const RunReport& report, const SceneConfig& scene,
       json.value("final_dilatancy_angle_deg", found.shear.final_dilatancy_angle);
     }
     json.value("axial_strain", found.axial_strain);
+    json.value("total_axial_strain", found.total_axial_strain);
+    json.value("axial_deviator_at_start_Pa", found.deviator_at_start);
+    json.value("axial_deviator_at_end_Pa", found.deviator_at_end);
     json.value("void_ratio", found.void_ratio);
     if (found.has_walls) {
       json.value("stress_disagreement", found.stress_disagreement);
@@ -199,6 +203,7 @@ void run(const Options& options, const Communicator& ranks, bool launched) {
   }
   if (quiet) return;
   if (report.end == RunEnd::nothing_to_do) {
+    say(verdict_text(report.verdict));
     say("the run is complete already: nothing to do\n");
   } else {
     say(printable(result_text(report, run_options.folder)));

@@ -33,11 +33,12 @@ from ._reckon import (  # noqa: E402
     shapes_from_meshes,
     threads,
 )
-from .runs import Run, run  # noqa: E402
+from .runs import InvalidRunWarning, Run, run  # noqa: E402
 from .scenes import Scene, Simulation  # noqa: E402
 
 __all__ = [
     "Error",
+    "InvalidRunWarning",
     "Run",
     "Scene",
     "Shape",

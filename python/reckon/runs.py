@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import warnings
 from typing import Any, Callable
 
 import numpy
@@ -14,13 +15,33 @@ from . import _reckon
 from .scenes import Scene, handle_of
 
 
+class InvalidRunWarning(UserWarning):
+    """The figures of a run mean nothing. The message says why."""
+
+
 class Run:
-    """What a run wrote into its folder, by this package or by `reckon run`; may be under way."""
+    """What a run wrote into its folder, by this package or by `reckon run`; may be under way.
+
+    Where its figures mean nothing, an InvalidRunWarning says so and why when it is opened.
+    """
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = pathlib.Path(folder)
         if not _reckon._holds_run(self.folder):
             raise _reckon.Error(f"{self.folder}: there is no run in this folder. Give the folder of a run.")
+        if not self.valid:
+            why = "; ".join(text for _, text in self.reasons)
+            warnings.warn(f"the figures of {self.folder} mean nothing: {why}", InvalidRunWarning, stacklevel=2)
+
+    @property
+    def valid(self) -> bool:
+        """Whether the figures of the run mean something."""
+        return _reckon._verdict(self.folder)["valid"]
+
+    @property
+    def reasons(self) -> list[tuple[str, str]]:
+        """Why they do not: a code and a text each, e.g. ("negative_void_ratio", ...)."""
+        return _reckon._verdict(self.folder)["reasons"]
 
     @property
     def history(self) -> dict[str, numpy.ndarray]:

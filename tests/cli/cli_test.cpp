@@ -24,6 +24,38 @@ class CliTest : public testing::ProgramTest {
   }
 };
 
+/// Grains far too soft for their stress: every command says so before it says anything else.
+TEST_F(CliTest, FiguresThatMeanNothingAreAnnouncedFirst) {
+  write("soft.toml", with(staged(), "2e9 N/m^3", "1e9 N/m^3"));
+  const Outcome check = reckon({"check", "soft.toml", "--timing", "0"});
+  EXPECT_EQ(check.code, 0);
+  EXPECT_NE(check.out.find("TOO SOFT"), std::string::npos) << check.out;
+  EXPECT_NE(
+      reckon({"check", "soft.toml", "--json", "--timing", "0"}).out.find("\"too_deep\": true"),
+      std::string::npos);
+  const Outcome run = reckon({"run", "soft.toml"});
+  EXPECT_EQ(run.code, 0);
+  const std::size_t verdict = run.out.find("THE FIGURES OF THIS RUN MEAN NOTHING:");
+  ASSERT_NE(verdict, std::string::npos) << run.out;
+  EXPECT_LT(verdict, run.out.find("complete at step"));
+  EXPECT_LT(verdict, run.out.find("peak friction angle"));
+  const Outcome again = reckon({"run", "soft.toml", "--resume", "--json"});
+  EXPECT_TRUE(again.out.starts_with("{\n  \"valid\": false,\n  \"reasons\": [\n")) << again.out;
+  EXPECT_TRUE(reckon({"analyse", "soft.run"}).out.starts_with("THE FIGURES OF THIS RUN MEAN"));
+  EXPECT_TRUE(reckon({"analyse", "soft.run", "--json"}).out.starts_with("{\n  \"valid\": false"));
+  EXPECT_NE(reckon({"report", "soft.run"}).out.find("THE FIGURES OF THIS RUN MEAN NOTHING"),
+            std::string::npos);
+}
+
+TEST_F(CliTest, WithoutTimedStepsNoDurationIsClaimed) {
+  const Outcome text = reckon({"check", "scene.toml", "--timing", "0"});
+  EXPECT_NE(text.out.find("not known: no steps were timed"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("from 0 steps"), std::string::npos) << text.out;
+  EXPECT_NE(
+      reckon({"check", "scene.toml", "--timing", "0", "--json"}).out.find("\"duration_s\": null"),
+      std::string::npos);
+}
+
 TEST_F(CliTest, HelpAndVersion) {
   const Outcome version = reckon({"--version"});
   EXPECT_EQ(version.code, 0);

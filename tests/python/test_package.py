@@ -204,6 +204,34 @@ class Simulations(Package):
         self.assertIn("[material]", by_package.scene)
         self.assertEqual(by_package.record["status"], by_program.record["status"])
 
+    def test_a_ruined_run_says_so(self):
+        box = {"low": [0, 0, 0], "high": ["4 mm", "4 mm", "8 mm"]}
+        soft = self.scene(
+            contact={"law": "area", "normal_stiffness": "1e8 N/m^3", "restitution": 0.5}, time={}, body={"damping": 500},
+            wall=[{"name": "box", "box": box}], output={"history_interval": 50, "sample": True},
+            stage=[{"name": "press", "steps": 1500,
+                    "control": [{"wall": "box", "stress": "20 kPa", "rate_limit": 200}]}])
+        with self.assertWarnsRegex(reckon.InvalidRunWarning, "mean nothing"):
+            run = reckon.run(soft, self.folder / "soft")
+        self.assertFalse(run.valid)
+        self.assertFalse(run.report["valid"])
+        self.assertIn("deep_overlap", [code for code, _ in run.reasons])
+        self.assertEqual(run.reasons, run.report["reasons"])
+        self.assertFalse(run.record["valid"])
+        fine = reckon.run(self.scene(), self.folder / "fine")
+        self.assertTrue(fine.valid)
+        self.assertEqual(fine.reasons, [])
+
+    def test_the_guide_of_shapes_works_word_for_word(self):
+        page = (ROOT / "docs" / "guide" / "python.md").read_text()
+        block = page.split("## Shapes")[1].split("```python\n")[1].split("```")[0]
+        block = block.replace("generate_shapes(20,", "generate_shapes(2, voxels_per_diameter=12,")
+        self.assertIn("or library[", block)
+        asked = block.split("or library[")[1].split("]")[0]
+        with tempfile.TemporaryDirectory() as folder:
+            exec(block.replace('"sand.h5"', f'"{folder}/sand.h5"'), names := {})
+            self.assertEqual(names["library"][ast.literal_eval(asked)].name, names["library"][0].name)
+
     def test_an_exception_of_progress_ends_the_run_in_order(self):
         def refuse(step, steps):
             raise ValueError("enough")

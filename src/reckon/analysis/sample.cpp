@@ -118,6 +118,37 @@ Vec3 shortening(const Vec3& from, const Vec3& to) {
   return {portable::log(from.x / to.x), portable::log(from.y / to.y), portable::log(from.z / to.z)};
 }
 
+/// Which of the axes a unit vector lies along, if any.
+std::optional<int> along_axis(const Vec3& unit) {
+  constexpr double nearly = 1 - 1e-12;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(unit[axis]) >= nearly) return axis;
+  }
+  return std::nullopt;
+}
+
+double axial_strain(const Simulation& simulation, const DrivenAxis& axis, const Enclosure& start,
+                    const Enclosure& now, const Vec3& total) {
+  if (axis.cell && is_shear(*axis.cell)) {
+    const int place = static_cast<int>(*axis.cell) - static_cast<int>(CellAxis::xy);
+    return simulation.cell_state().shear[place];
+  }
+  if (const auto along = along_axis(axis.normal_unit)) return total[*along];
+  const std::uint32_t wall = axis.walls.front().get();
+  return portable::log(start.volume / start.areas[wall] / (now.volume / now.areas[wall]));
+}
+
+double axial_deviator(const DrivenAxis& axis, const Mat3& stress, double mean) {
+  const Mat3 s = symmetric_part(stress);
+  if (axis.cell && is_shear(*axis.cell)) {  // grains resist shear against its direction
+    const double shear = *axis.cell == CellAxis::xy   ? s.row_x.y
+                         : *axis.cell == CellAxis::xz ? s.row_x.z
+                                                      : s.row_y.z;
+    return -std::numbers::sqrt3 * shear;
+  }
+  return 1.5 * (dot(axis.normal_unit, s * axis.normal_unit) - mean);
+}
+
 /// The largest rate of strain by axis over the last step [1/s].
 double largest_rate(const Simulation& simulation, const Enclosure& now) {
   const double dt = simulation.setup().time_step;
@@ -190,12 +221,19 @@ SampleMeasurement measure_sample(const Simulation& simulation) {
     result.strain = shortening(start->size(), space->size());
     result.volumetric_strain = portable::log(start->volume / space->volume);
   }
+  const DrivenAxis axis = simulation.stage() != nullptr ? simulation.stage()->axis : DrivenAxis{};
+  if (const auto start = simulation.space_at_start()) {
+    result.total_strain = shortening(start->size(), space->size());
+    result.total_volumetric_strain = portable::log(start->volume / space->volume);
+    result.axial_strain = axial_strain(simulation, axis, *start, *space, result.total_strain);
+  }
   // The walls' forces on grains point inward, their levers outward.
   Mat3 inside = sums.pairs.value();
   inside += -1.0 * sums.wall_branches.value();
   result.stress = (1 / space->volume) * inside;
   result.wall_stress = (-1 / space->volume) * sums.on_walls.value();
   result.invariants = invariants(result.stress);
+  result.axial_deviator = axial_deviator(axis, result.stress, result.invariants.mean);
   if (result.invariants.mean > 0 && solids > 0) {
     const double diameter = sums.weighted_diameter.value() / solids;
     result.inertial_number = largest_rate(simulation, *space) * diameter *

@@ -15,11 +15,16 @@ namespace reckon {
 struct SampleMeasurement {
   // Of the space that the walls close off; zeros where they do not.
   bool enclosed{false};
-  double volume{0};             ///< exact, see Enclosure [m^3]
-  Vec3 size;                    ///< of its bounding box [m]
-  double void_ratio{0};         ///< (volume - solids) / solids
-  Vec3 strain;                  ///< -ln(size / size at the start of the stage), by axis
-  double volumetric_strain{0};  ///< -ln(volume / volume at the start of the stage)
+  double volume{0};                   ///< exact, see Enclosure [m^3]
+  Vec3 size;                          ///< of its bounding box [m]
+  double void_ratio{0};               ///< (volume - solids) / solids
+  Vec3 strain;                        ///< -ln(size / size at the start of the stage), by axis
+  double volumetric_strain{0};        ///< -ln(volume / volume at the start of the stage)
+  Vec3 total_strain;                  ///< -ln(size / size at step 0), by axis
+  double total_volumetric_strain{0};  ///< -ln(volume / volume at step 0)
+  /// The strain since step 0 along the axis that the test drives (StageSetup::axis); of a cell that
+  /// is sheared, its shear strain.
+  double axial_strain{0};
 
   /// Love-Weber: sum over all contacts of force (x) branch, over the volume. Branches go from
   /// centre to centre, and at walls from a grain's centre to the touching nodes [Pa].
@@ -28,6 +33,10 @@ struct SampleMeasurement {
   /// to Love-Weber's but for what grains are out of balance, and what body forces do [Pa].
   Mat3 wall_stress{Vec3{}, Vec3{}, Vec3{}};
   StressInvariants invariants;  ///< of `stress`
+  /// Signed q along the same axis: the stress along it less the mean of the other two, so that a
+  /// cycle through the isotropic state is not folded; of a cell that is sheared, sqrt(3) times the
+  /// shear stress [Pa].
+  double axial_deviator{0};
   /// I = largest rate of strain * d * sqrt(density / p), with d the volume-weighted mean diameter
   /// of equal spheres. Below 1e-3 a test counts as quasi-static (da Cruz et al. 2005).
   double inertial_number{0};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/analysis/shear_curve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -67,18 +68,24 @@ std::optional<ShearSummary> summarize(std::span<const ShearPoint> curve) {
   if (curve.size() < 3 || !(curve.back().axial_strain > curve.front().axial_strain)) {
     return std::nullopt;
   }
+  const double first = curve.front().axial_strain;
+  const double last = curve.back().axial_strain;
+  const double window = std::min(peak_window, 0.1 * (last - first));
   ShearSummary summary;
   for (const ShearPoint& point : curve) {
-    const double mean = mean_friction_angle(curve, around(point.axial_strain, peak_window));
+    const double mean = mean_friction_angle(curve, around(point.axial_strain, window));
     if (!(mean > summary.peak_friction_angle)) continue;
     summary.peak_friction_angle = mean;
     summary.strain_at_peak = point.axial_strain;
   }
-  const double first = curve.front().axial_strain;
-  const double last = curve.back().axial_strain;
   const Range end{last - 0.2 * (last - first), last};
-  summary.dilatancy_angle = dilatancy_angle(curve, around(summary.strain_at_peak, slope_window));
   summary.final_friction_angle = mean_friction_angle(curve, end);
+  if (summary.final_friction_angle > summary.peak_friction_angle) {
+    summary.peak_friction_angle = summary.final_friction_angle;
+    summary.strain_at_peak = last;
+  }
+  summary.still_rising = summary.strain_at_peak >= last - window;
+  summary.dilatancy_angle = dilatancy_angle(curve, around(summary.strain_at_peak, slope_window));
   summary.final_dilatancy_angle = dilatancy_angle(curve, end);
   return summary;
 }

@@ -176,6 +176,9 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
   file.write("/run/energy_at_start", one(checkpoint.energy_at_start), {1}, "J");
   file.write("/run/shape_digest", checkpoint.shape_digests, {checkpoint.shape_digests.size()}, "1");
   file.write("/run/acceleration_digest", one(checkpoint.acceleration_digest), {1}, "1");
+  std::vector<std::uint64_t> since;
+  if (checkpoint.goal_met_since) since.push_back(*checkpoint.goal_met_since);
+  file.write("/run/goal_met_since", since, {since.size()}, "1");
   const std::vector<std::uint8_t> scene(checkpoint.scene.begin(), checkpoint.scene.end());
   file.write("/run/scene", scene, {scene.size()}, "UTF-8");
   for (const CheckpointColumn& column : to_columns(checkpoint.state)) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -22,6 +23,8 @@ struct Checkpoint {
   std::string scene;                         ///< as write_scene gives it, without its length
   std::vector<std::uint64_t> shape_digests;  ///< of the library, see avatar/library_file.hpp
   std::uint64_t acceleration_digest{0};      ///< of the grains' own accelerations
+  /// The step since when the goal of the run or of its stage is met (HeldCondition), if it is.
+  std::optional<std::uint64_t> goal_met_since{};
 };
 
 /// One dataset of a checkpoint: rows of `width` numbers each.
@@ -42,7 +45,8 @@ void write_column(Hdf5Writer& file, const CheckpointColumn& column);
 
 /// Writes a sealed HDF5 file (core/hdf5_file.hpp). Equal checkpoints give equal files.
 ///
-///   /run/{step, time_step, energy_at_start, shape_digest, acceleration_digest, scene}
+///   /run/{step, time_step, energy_at_start, shape_digest, acceleration_digest, scene,
+///         goal_met_since}
 ///   /grain/{id, shape, prescribed, position, orientation, ...}     one row per grain, by id
 ///   /departed/{step, id, ...}              grains that left, as they were then
 ///   /driven_wall/{displacement, ...}       one row per wall of the scene

@@ -217,6 +217,12 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
   checkpoint.acceleration_digest = file.read<std::uint64_t>("/run/acceleration_digest", {1})[0];
   const auto scene = file.read<std::uint8_t>("/run/scene", {rows_of(file, "/run/scene")});
   checkpoint.scene.assign(scene.begin(), scene.end());
+  if (file.version() >= 8) {
+    const std::uint64_t rows = rows_of(file, "/run/goal_met_since");
+    if (rows > 1) refuse(file, "its goal is met since more than one step");
+    const auto since = file.read<std::uint64_t>("/run/goal_met_since", {rows});
+    if (!since.empty()) checkpoint.goal_met_since = since.front();
+  }
   checkpoint.state = read_state(file, checkpoint.shape_digests.size());
   return checkpoint;
 }

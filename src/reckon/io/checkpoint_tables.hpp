@@ -10,8 +10,8 @@
 namespace reckon {
 
 // 2 added departed grains, 3 driven walls and stages, 4 the membrane, 5 the cell and bonds, 6 the
-// last push of dashpots.
-inline const Hdf5Kind checkpoint_kind{"checkpoint", 7};
+// last push of dashpots, 7 the stiffness of springs, 8 since when a goal is met.
+inline const Hdf5Kind checkpoint_kind{"checkpoint", 8};
 
 /// How the parts of the state lie in columns. The same walk fills columns from the state, and the
 /// state from columns: `Columns` offers number, vector, quaternion, id and flag.

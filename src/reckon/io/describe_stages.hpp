@@ -73,7 +73,9 @@ void describe(Visitor& v, StageGoal& goal) {
             .unit = "1",
             .range = above(0),
             .standard = "not asked",
-            .meaning = "The unbalanced force ratio is below this."},
+            .meaning = "The sample is at rest: the unbalanced force ratio is below this, contacts "
+                       "carry half of the grains' mass at least, and the kinetic energy is below "
+                       "this share of what holds the grains (`kinetic_ratio`)."},
            goal.unbalanced_ratio);
   v.number({.name = "stress_error",
             .unit = "1",
@@ -81,20 +83,28 @@ void describe(Visitor& v, StageGoal& goal) {
             .standard = "not asked",
             .meaning = "Every stress that a servo holds is its target to this relative error."},
            goal.stress_error);
+  if (v.visits(!goal.wall.empty())) {  // not written when absent: runs from before it go on
+    v.text({.name = "wall",
+            .standard = "what the stage moves by `strain_rate` or `speed`",
+            .meaning = "Which planes, or which part of the cell, `strain`, `stress_above` and "
+                       "`stress_below` are about, named as by a control. Needed for a stress where "
+                       "several controls move something by `strain_rate` or `speed`."},
+           goal.wall);
+  }
   v.number({.name = "strain",
             .unit = "1",
             .range = above(0),
             .standard = "not asked",
             .meaning = "The space has become shorter or longer by this logarithmic strain since "
-                       "the stage began: along the planes that are moved by `strain_rate` or "
-                       "`speed`, or, where none are, along some axis. Of a cell that is sheared, "
-                       "its shear strain."},
+                       "the stage began: along `wall`, or, where it is not given and the stage "
+                       "moves nothing by `strain_rate` or `speed`, along some axis. Of a cell that "
+                       "is sheared, its shear strain."},
            goal.strain);
   v.number({.name = "stress_above",
             .unit = "Pa",
             .standard = "not asked",
-            .meaning = "The stress on the first planes moved by `strain_rate` or `speed` is above "
-                       "this."},
+            .meaning = "The stress on `wall` is above this; where it names several pairs of "
+                       "planes, on each of them."},
            goal.stress_above);
   v.number({.name = "stress_below",
             .unit = "Pa",
@@ -138,11 +148,16 @@ void describe(Visitor& v, StageConfig& stage) {
                          stage.steps);
              }
            });
-  v.optional_table({.name = "until",
-                    .standard = "runs its whole time",
-                    .meaning = "Ends the stage early, when all conditions in it hold at once. They "
-                               "are looked at with each row of the history, or every 100 steps."},
-                   stage.until, [&](StageGoal& goal) { describe(v, goal); });
+  v.optional_table(
+      {.name = "until",
+       .standard = "runs its whole time",
+       .meaning = "Ends the stage early, when all conditions in it hold at once. They "
+                  "are looked at with each row of the history, or every 100 steps. "
+                  "Rest, stresses and overlaps, which an instant can meet by accident, "
+                  "must hold at each look over five periods 2 pi sqrt(m / k) of the "
+                  "grain that limits the time step; `stress_above` and `stress_below` alone "
+                  "over one."},
+      stage.until, [&](StageGoal& goal) { describe(v, goal); });
   v.number({.name = "friction",
             .unit = "1",
             .range = at_least(0),

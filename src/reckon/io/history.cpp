@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <iterator>
+#include <limits>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -163,6 +165,26 @@ HistoryTable read_history(const std::filesystem::path& path) {
     }
   }
   return table;
+}
+
+double HistoryColumns::at(std::size_t row, std::string_view name) const {
+  const auto column = place(name);
+  if (!column) {
+    throw Error{{.place = "history.csv",
+                 .problem = fmt::format("has no column \"{}\"", name),
+                 .reason = "it was changed, or written by another version of reckon",
+                 .fix = "Put its header back: docs/reference/history.md lists the columns."}};
+  }
+  const std::string& cell = history_.rows[row][*column];
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return value;
+}
+
+std::optional<std::size_t> HistoryColumns::place(std::string_view name) const {
+  const auto found = std::ranges::find(history_.header, name);
+  if (found == history_.header.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - history_.header.begin());
 }
 
 }  // namespace reckon

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reckon/io/quantities.hpp"
@@ -53,5 +55,20 @@ struct HistoryTable {
 /// Reads history.csv; a last line without its end, as a power failure may leave it, is left out.
 /// Throws Error when the file cannot be read or a row has not as many cells as the header.
 [[nodiscard]] HistoryTable read_history(const std::filesystem::path& path);
+
+/// Numbers of a history by column and row.
+class HistoryColumns {
+ public:
+  explicit HistoryColumns(const HistoryTable& history) : history_{history} {}
+
+  [[nodiscard]] bool has(std::string_view name) const { return place(name).has_value(); }
+  /// NaN for a cell without a number. Throws Error that names the column where there is none.
+  [[nodiscard]] double at(std::size_t row, std::string_view name) const;
+
+ private:
+  [[nodiscard]] std::optional<std::size_t> place(std::string_view name) const;
+
+  const HistoryTable& history_;
+};
 
 }  // namespace reckon

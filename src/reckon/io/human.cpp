@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 namespace reckon {
@@ -43,6 +44,17 @@ std::string human_count(std::uint64_t count) {
     out += digits[n];
   }
   return out;
+}
+
+std::string human_beside(double value, double limit) {
+  constexpr int most_digits = 17;
+  for (int digits = 2; digits < most_digits; ++digits) {
+    std::string text = fmt::format("{:.{}g}", value, digits);
+    double shown = 0;
+    std::from_chars(text.data(), text.data() + text.size(), shown);
+    if ((shown > limit) == (value > limit)) return text;
+  }
+  return fmt::format("{}", value);
 }
 
 std::string shell_word(std::string_view text) {

@@ -103,7 +103,8 @@ std::vector<Quantity> of_every_run() {
   add("wall_contacts", "", "touching pairs of grain and wall", [](M m) { return m.wall_contacts; });
   add("touching_nodes", "", "nodes in contact", [](M m) { return m.touching_nodes; });
   add("coordination", "", "contacts per grain, walls included", [](M m) { return m.coordination; });
-  add("unbalanced_ratio", "", "mean net force on a grain over mean contact force",
+  add("unbalanced_ratio", "",
+      "mean net force on a grain over mean contact force; inf where no contact carries a force",
       [](M m) { return m.unbalanced_ratio; });
   add("deepest_overlap", "m", "largest penetration of a node",
       [](M m) { return m.deepest_overlap; });
@@ -111,6 +112,16 @@ std::vector<Quantity> of_every_run() {
       [](M m) { return m.largest_speed; });
   add(
       "momentum", "kg m/s", "momentum of all grains", [](M m) { return m.momentum; }, along_axes);
+  add("carried_share", "", "share of the grains' mass that a contact pushes",
+      [](M m) { return m.carried_share; });
+  add("kinetic_ratio", "",
+      "kinetic energy of the grains over what holds them: the energy in contact springs, and that "
+      "which lifts each grain by its diameter against gravity",
+      [](M m) { return m.kinetic_ratio; });
+  add("overlap_ratio", "",
+      "largest penetration over the diameter of the smaller grain (of a sphere of its volume)",
+      [](M m) { return m.overlap_ratio; });
+  add("outside", "", "grains whose centre is behind a wall", [](M m) { return m.outside; });
   return list.take();
 }
 
@@ -206,6 +217,20 @@ std::vector<Quantity> of_sample() {
       .add("inertial_number", "",
            "largest rate of strain times mean diameter times sqrt(density / p)",
            [](S s) { return s.inertial_number; })
+      .add(
+          "total_strain", "", "logarithmic strain since step 0, compression positive",
+          [](S s) { return s.total_strain; }, along_axes)
+      .add("total_volumetric_strain", "", "likewise, of the volume",
+           [](S s) { return s.total_volumetric_strain; })
+      .add("axial_strain", "",
+           "the same along the axis that the test drives: that of the stage, or of the last stage "
+           "before or the next one that drives walls by rate or speed, else z; of a cell that is "
+           "sheared, its shear strain",
+           [](S s) { return s.axial_strain; })
+      .add("axial_deviator", "Pa",
+           "signed q along that axis, compression positive: the stress along it less the mean of "
+           "the other two; of a cell that is sheared, sqrt(3) times the shear stress",
+           [](S s) { return s.axial_deviator; })
       .add("mechanical_coordination", "",
            "contacts per grain over grains with at least two of them",
            [](S s) { return s.mechanical_coordination; })

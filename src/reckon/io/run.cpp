@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -74,6 +75,8 @@ class Session {
         simulation_{std::move(prepared.setup),
                     files != nullptr ? files->take_start() : SimulationState{}, ranks},
         schedule_{config, simulation_.stage_starts()},
+        persistence_{persistence(prepared.time_step, files, ranks)},
+        goal_{persistence_.met_since},
         resumed_{resumed} {
     progress_.first_step = simulation_.step_number();
     progress_.step = progress_.first_step;
@@ -168,6 +171,35 @@ class Session {
     return options_.steps ? std::min(step, *options_.steps) : step;
   }
 
+  /// What the root alone knows, on all ranks: the period 2 pi sqrt(m / k) of the grain that limits
+  /// the time step [steps], and since when a goal is met. Collective.
+  struct Persistence {
+    double period{0};
+    std::optional<std::uint64_t> met_since;
+  };
+  static Persistence persistence(const TimeStepChoice& choice, const RunFiles* files,
+                                 const Communicator& ranks) {
+    Bytes bytes;
+    if (files != nullptr) {
+      const double period = 2 * std::numbers::pi * std::sqrt(choice.mass / choice.stiffness);
+      pack<double>(bytes, std::array{period / choice.step});
+      std::vector<std::uint64_t> since;
+      if (files->goal_met_since()) since.push_back(*files->goal_met_since());
+      pack<std::uint64_t>(bytes, since);
+    }
+    bytes = ranks.broadcast(std::move(bytes));
+    Unpacker message{bytes};
+    const double period = message.take_all<double>().front();
+    const auto since = message.take_all<std::uint64_t>();
+    return {period, since.empty() ? std::nullopt : std::optional{since.front()}};
+  }
+  /// Whether a condition has held for so many periods, and at two looks at least.
+  bool lasts(bool holds, double periods) {
+    constexpr double most = 1e9;
+    const double span = std::min(std::ceil(periods * persistence_.period), most);
+    return goal_.look(progress_.step, holds, span >= 1 ? static_cast<std::uint64_t>(span) : 1);
+  }
+
   /// Goals are looked at only at fixed steps, so that a resumed run ends a stage where an
   /// uninterrupted one does.
   bool stage_is_over() {
@@ -176,12 +208,16 @@ class Session {
     const std::uint64_t start = simulation_.stage_starts().back();
     const std::uint64_t step = progress_.step;
     if (step <= start) return false;
-    if (step - start >= most_steps(stage, simulation_.setup().time_step)) return true;
+    const bool is_late = step - start >= most_steps(stage, simulation_.setup().time_step);
+    goal_is_met_ = !stage.until;
     std::uint64_t interval = schedule_.history_interval(step);
     if (interval == 0) interval = rest_interval_without_history;
-    if (!stage.until || !is_due(step, interval)) return false;
+    if (!stage.until || !is_due(step, interval)) return is_late;
     measure();
-    return reached(*stage.until, simulation_, last_, sample_);
+    const GoalState state = look_at(*stage.until, simulation_, last_, sample_);
+    const double periods = periods_of(*stage.until);
+    goal_is_met_ = (periods == 0 || lasts(state.holds, periods)) && state.passed;
+    return goal_is_met_ || is_late;
   }
   bool test_is_over() {
     return has_stages() && stage_index() + 1 == config_.stages.size() && stage_is_over();
@@ -190,13 +226,13 @@ class Session {
   void begin_next_stage() {
     const StageConfig& over = config_.stages[stage_index()];
     measure();
-    const bool in_time = !over.until || reached(*over.until, simulation_, last_, sample_);
     if (files_ != nullptr) {
       const std::uint64_t steps = progress_.step - simulation_.stage_starts().back();
-      files_->note(stage_note(over.name, steps, in_time, last_, sample_));
+      files_->note(stage_note(over.name, steps, goal_is_met_, last_, sample_));
     }
     if (stage_index() + 1 == config_.stages.size()) return;
     simulation_.begin_next_stage();
+    goal_.forget();
     schedule_.begin_stage(progress_.step);
     progress_.steps = last_possible_step();
   }
@@ -256,8 +292,7 @@ class Session {
   bool rests_after_history() {
     if (!is_due(progress_.step, rest_interval())) return false;
     measure();
-    return last_.contacts + last_.wall_contacts > 0 &&
-           last_.unbalanced_ratio < *config_.time.stop_at_unbalanced_ratio;
+    return lasts(is_at_rest(last_, *config_.time.stop_at_unbalanced_ratio), rest_periods);
   }
 
   void measure() {
@@ -308,7 +343,7 @@ class Session {
 
   void save_checkpoint() {
     SimulationState state = simulation_.state();
-    on_root(ranks_, [&] { files_->write_checkpoint(std::move(state)); });
+    on_root(ranks_, [&] { files_->write_checkpoint(std::move(state), goal_.since()); });
     last_checkpoint_ = progress_.step;
     last_checkpoint_time_ = Clock::now();
     save_record("running");
@@ -328,6 +363,8 @@ class Session {
     const char* status = end == RunEnd::interrupted ? "interrupted"
                          : end == RunEnd::at_rest   ? "at rest"
                                                     : "complete";
+    RunVerdict verdict;
+    on_root(ranks_, [&] { verdict = files_->judge(config_, status); });
     // A session without a step leaves what is told of the one that took the last.
     if (end != RunEnd::nothing_to_do ||
         ranks_.any(files_ != nullptr && !files_->record_says_ended())) {
@@ -336,6 +373,7 @@ class Session {
     RunReport report{.end = end, .progress = progress_, .last = last_};
     HistoryRow at_end = row();
     at_end.energy_at_start = energy_at_start();
+    report.verdict = std::move(verdict);
     report.measured =
         measured(quantities_of(layout_of(simulation_.setup(), config_.output.sample)), at_end);
     if (files_ == nullptr) return report;
@@ -370,6 +408,9 @@ class Session {
   RunFiles* files_;
   Simulation simulation_;
   OutputSchedule schedule_;
+  Persistence persistence_;
+  HeldCondition goal_;       // of the run, or of the stage under way
+  bool goal_is_met_{false};  // of the stage, as of the last look
   bool resumed_;
   RunProgress progress_;
   Measurement last_;

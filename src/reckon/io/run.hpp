@@ -11,6 +11,7 @@
 
 #include "reckon/core/error.hpp"
 #include "reckon/io/quantities.hpp"
+#include "reckon/io/run_verdict.hpp"
 #include "reckon/io/scene_reader.hpp"
 #include "reckon/simulation/measurement.hpp"
 #include "reckon/simulation/setup.hpp"
@@ -47,7 +48,7 @@ struct RunHooks {
 
 enum class RunEnd {
   complete,       ///< all steps done
-  at_rest,        ///< time.stop_at_unbalanced_ratio was met
+  at_rest,        ///< time.stop_at_unbalanced_ratio was met, and lasted
   interrupted,    ///< stop_requested
   nothing_to_do,  ///< the run to resume was complete
 };
@@ -58,6 +59,7 @@ struct RunReport {
   Measurement last;  ///< at the last step
   /// All quantities of the run at the last step, as the last row of history.csv has them.
   std::vector<MeasuredQuantity> measured;
+  RunVerdict verdict;                ///< whether the figures mean something; on the root
   double energy_error{0};            ///< balance error [J]
   double energy_turnover{0};         ///< stored, lost and come in, as a measure for it [J]
   std::filesystem::path checkpoint;  ///< the latest; on the root

@@ -82,12 +82,14 @@ void RunFiles::write_fields(FieldsAtStep fields) {
   in_background([this, fields = std::move(fields)] { outputs_->write_fields(fields); });
 }
 
-void RunFiles::write_checkpoint(SimulationState state) {
-  in_background([this, state = std::move(state)]() mutable {
+void RunFiles::write_checkpoint(SimulationState state,
+                                std::optional<std::uint64_t> goal_met_since) {
+  in_background([this, state = std::move(state), goal_met_since]() mutable {
     const std::uint64_t step = state.step;
     // A run that goes on from here counts on the rows before.
     outputs_->sync_history();
     checkpoint_.state = std::move(state);
+    checkpoint_.goal_met_since = goal_met_since;
     reckon::write_checkpoint(folder_.checkpoint(step), checkpoint_);
     checkpoint_.state = {};
     if (latest_ && *latest_ != step && !is_due(*latest_, config_.checkpoint_interval)) {
@@ -116,6 +118,11 @@ void RunFiles::write_record(const std::string& status, const RunProgress& progre
                              background_seconds_};
   write_file(folder_.performance(), performance_json(run));
   performance_text_ = performance_table(run);
+}
+
+RunVerdict RunFiles::judge(const SceneConfig& scene, const std::string& status) {
+  record_.verdict = verdict_on({scene, history(), status});
+  return *record_.verdict;
 }
 
 bool RunFiles::record_says_ended() const {

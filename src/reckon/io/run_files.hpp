@@ -31,6 +31,10 @@ class RunFiles {
   [[nodiscard]] bool resumed() const { return resumed_; }
   /// Where the session begins. To be taken once.
   [[nodiscard]] SimulationState take_start();
+  /// See Checkpoint.
+  [[nodiscard]] std::optional<std::uint64_t> goal_met_since() const {
+    return checkpoint_.goal_met_since;
+  }
 
   void note(const std::string& text);       ///< in the log and to the caller
   void log(const std::string& text) const;  ///< in the log alone
@@ -41,11 +45,14 @@ class RunFiles {
   /// a later call.
   void write_fields(FieldsAtStep fields);
   /// A checkpoint that the scene did not ask for gives way to the next one.
-  void write_checkpoint(SimulationState state);
+  void write_checkpoint(SimulationState state, std::optional<std::uint64_t> goal_met_since);
   /// Waits until all of it is written.
   void finish_writing();
   void write_record(const std::string& status, const RunProgress& progress,
                     std::span<const RankPerformance> performance);
+  /// Looks through the history of a session that ends with this status; the verdict goes into the
+  /// records to come.
+  [[nodiscard]] RunVerdict judge(const SceneConfig& scene, const std::string& status);
   /// Puts the latest checkpoint into the advice of an error, and the failure into the record.
   [[nodiscard]] ErrorText fail(ErrorText text, const RunProgress& progress);
 

@@ -33,6 +33,7 @@ constexpr std::uint64_t pairs_per_grain = 3;
 constexpr std::uint64_t listed_per_grain = 10;
 constexpr std::uint64_t nodes_per_pair = 10;
 constexpr double disk_rate = 2e8;  // [bytes/s]
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 void describe_assembly(const LoadedScene& scene, const PreparedScene& prepared, RunPlan& plan) {
   plan.grains = scene.grains.size();
@@ -190,6 +191,7 @@ RunPlan plan_run(const LoadedScene& scene, double timing_seconds) {
   plan.steps = prepared.steps;
   plan.stages = plan_stages(scene, prepared.time_step.step);
   plan.warnings = scene.warnings;
+  plan.overlap = forecast_overlap(scene);
   plan.simulated_time = static_cast<double>(plan.steps) * prepared.time_step.step;
   estimate_memory(plan);
   plan.history_rows = 1 + occasions(plan.steps, scene.config.output.history_interval);
@@ -257,6 +259,12 @@ std::string plan_text(const RunPlan& plan) {
   if (step.given && step.step > longest) {
     line("", fmt::format("TOO LONG: above {:.3g} s forces may grow without bound", longest));
   }
+  if (plan.overlap) {
+    line("overlap", overlap_line(*plan.overlap));
+    if (plan.overlap->is_too_deep()) {
+      line("", "TOO SOFT: the figures of such a run mean nothing; raise the stiffness");
+    }
+  }
   for (std::size_t n = 0; n < plan.stages.size(); ++n) {
     const auto lines = stage_lines(plan.stages[n], step.step);
     line(fmt::format("stage {}", n + 1), lines.front());
@@ -274,6 +282,10 @@ std::string plan_text(const RunPlan& plan) {
   if (plan.trial_failure) {
     line("trial", "FAILED in the first steps: " + *plan.trial_failure);
   } else {
+    if (plan.timed_steps == 0) {
+      line("duration", "not known: no steps were timed");
+      return text;
+    }
     line("duration", fmt::format("about {} on {} thread{}", human_duration(plan.duration),
                                  plan.threads, plan.threads == 1 ? "" : "s"));
     line("", fmt::format("from {} steps really made in memory, {:.3g} ms each; steps with more "
@@ -321,6 +333,13 @@ std::string plan_json(const RunPlan& plan) {
   json.value("mass_kg", plan.time_step.mass);
   json.value("stiffness_N_per_m", plan.time_step.stiffness);
   json.end();
+  if (plan.overlap) {
+    json.begin_object("foreseen_overlap");
+    json.value("stress_Pa", plan.overlap->stress);
+    json.value("over_diameter", plan.overlap->ratio);
+    json.value("too_deep", plan.overlap->is_too_deep());
+    json.end();
+  }
   if (!plan.stages.empty()) write_stages(json, plan.stages);
   json.value("steps", plan.steps);
   json.value("simulated_time_s", plan.simulated_time);
@@ -331,8 +350,9 @@ std::string plan_json(const RunPlan& plan) {
   json.value("output_bytes", plan.output_bytes);
   json.value("threads", plan.threads);
   json.value("timed_steps", plan.timed_steps);
-  json.value("seconds_per_step", plan.seconds_per_step);
-  json.value("duration_s", plan.duration);
+  const auto timed = [&](double seconds) { return plan.timed_steps > 0 ? seconds : unknown; };
+  json.value("seconds_per_step", timed(plan.seconds_per_step));
+  json.value("duration_s", timed(plan.duration));
   json.begin_array("warnings");
   for (const std::string& warning : plan.warnings) json.value(warning);
   json.end();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/io/overlap_forecast.hpp"
 #include "reckon/io/stage_plan.hpp"
 #include "reckon/simulation/setup.hpp"
 
@@ -42,8 +43,9 @@ struct RunPlan {
   double step_fraction{0};
   std::string limiting_shape;  ///< of the grain that limits the time step
   std::vector<StagePlan> stages;
-  std::uint64_t steps{0};    ///< with stages, at most
-  double simulated_time{0};  ///< [s]
+  std::optional<OverlapForecast> overlap;  ///< where a load is known
+  std::uint64_t steps{0};                  ///< with stages, at most
+  double simulated_time{0};                ///< [s]
 
   std::uint64_t memory_shapes{0};    ///< [bytes]
   std::uint64_t memory_grains{0};    ///< with pair lists and springs [bytes]

@@ -3,12 +3,12 @@
 #include "reckon/io/run_record.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <ctime>
 #include <filesystem>
-#include <regex>
 #include <system_error>
 #include <utility>
 
@@ -62,6 +62,7 @@ std::string record_text(const RunRecord& record) {
   json.begin_object();
   json.value("status", record.status);
   if (!record.message.empty()) json.value("message", record.message);
+  if (record.verdict) write_verdict(json, *record.verdict);
   json.value("scene", record.scene);
   json.value("grains", record.grains);
   json.value("shapes", record.shapes);
@@ -112,12 +113,35 @@ void overwrite_run_record(const std::filesystem::path& path, const RunRecord& re
   }
 }
 
-std::string recorded_status(const std::filesystem::path& path) {
+namespace {
+
+/// The text under a key of the record's outer object; empty where there is none.
+std::string recorded_text(const std::filesystem::path& path, std::string_view key) {
   if (!std::filesystem::exists(path)) return {};
-  static const std::regex status{R"re("status": "([^"]*)")re"};
-  const std::string text = read_file(path);
-  std::smatch found;
-  return std::regex_search(text, found, status) ? found[1].str() : std::string{};
+  const std::string record = read_file(path);
+  const std::string before = fmt::format("\n  \"{}\": \"", key);
+  std::size_t at = record.find(before);
+  if (at == std::string::npos) return {};
+  std::string text;
+  for (at += before.size(); at < record.size() && record[at] != '"'; ++at) {
+    if (record[at] == '\\' && at + 1 < record.size()) {
+      ++at;
+      text += record[at] == 'n' ? '\n' : record[at];
+    } else {
+      text += record[at];
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string recorded_status(const std::filesystem::path& path) {
+  return recorded_text(path, "status");
+}
+
+std::string recorded_message(const std::filesystem::path& path) {
+  return recorded_text(path, "message");
 }
 
 }  // namespace reckon

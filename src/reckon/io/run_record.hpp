@@ -4,8 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "reckon/io/run_verdict.hpp"
 
 namespace reckon {
 
@@ -29,9 +32,10 @@ class RunLog {
 
 /// What run.json says: which program ran what, where, and how it ended.
 struct RunRecord {
-  std::string status;   ///< running, complete, at rest, interrupted, failed
-  std::string message;  ///< of a failure
-  std::string started;  ///< this session [UTC]
+  std::string status;                 ///< running, complete, at rest, interrupted, failed
+  std::string message;                ///< of a failure
+  std::optional<RunVerdict> verdict;  ///< once the session has ended
+  std::string started;                ///< this session [UTC]
   std::string scene;
   std::uint64_t grains{0};
   std::uint64_t shapes{0};
@@ -50,6 +54,8 @@ void write_run_record(const std::filesystem::path& path, const RunRecord& record
 /// room of its own, or else the old one, which is no longer true, is removed.
 void overwrite_run_record(const std::filesystem::path& path, const RunRecord& record);
 
+/// The message of a failure in a run.json; empty where there is none.
+[[nodiscard]] std::string recorded_message(const std::filesystem::path& path);
 /// The status in a run.json; empty where there is none.
 [[nodiscard]] std::string recorded_status(const std::filesystem::path& path);
 

@@ -10,7 +10,9 @@
 #include <string>
 
 #include "reckon/core/error.hpp"
+#include "reckon/core/file.hpp"
 #include "reckon/core/vtk_reader.hpp"
+#include "reckon/io/scene_reader.hpp"
 
 namespace reckon {
 namespace {
@@ -161,6 +163,25 @@ void read_cell(const std::filesystem::path& path, SavedFields& fields) {
 }
 
 }  // namespace
+
+SceneConfig scene_of_run(const RunFolder& folder) {
+  if (!std::filesystem::exists(folder.resolved())) {
+    throw Error{{.place = folder.root().string(),
+                 .problem = "this is not the folder of a run",
+                 .reason = "it has no scene_resolved.toml",
+                 .fix = "Name a folder that `reckon run` has written."}};
+  }
+  const std::filesystem::path file = folder.own(folder.resolved());
+  SceneReading reading = read_scene_text(read_file(file), folder.root());
+  for (const SceneFault& fault : reading.faults) {
+    if (fault.is_of_other_file) continue;  // shapes that have gone since are told of later
+    throw Error{{.place = file.string(),
+                 .problem = "this is not a scene that a run has written",
+                 .reason = describe(fault, file.filename().string()),
+                 .fix = "Put the run's own file back: `reckon run` with --resume writes it anew."}};
+  }
+  return std::move(reading.config);
+}
 
 SavedFields read_fields(const RunFolder& folder, std::uint64_t step) {
   SavedFields fields;

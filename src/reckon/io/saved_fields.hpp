@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reckon/io/run_folder.hpp"
+#include "reckon/simulation/config.hpp"
 #include "reckon/simulation/simulation.hpp"
 
 namespace reckon {
@@ -38,6 +39,10 @@ struct SavedFields {
   std::vector<std::uint32_t> membrane_corners;  ///< three nodes for each triangle
   std::vector<Vec3> cell_corners;  ///< of the periodic cell, see write_cell; or none [m]
 };
+
+/// The scene as it ran, without its files. Throws Error where the folder holds no run, or its
+/// scene_resolved.toml is not a scene.
+[[nodiscard]] SceneConfig scene_of_run(const RunFolder& folder);
 
 /// Reads the ParaView files that a run wrote at `step`. Throws Error when there are none, or when
 /// they are damaged or contradict each other.

@@ -146,11 +146,27 @@ void StageCheck::check_goal(const StageConfig& stage, const std::string& key) {
   const StageGoal& goal = *stage.until;
   const auto is_driven = [](const ControlConfig& c) { return c.target != WallTarget::stress; };
   const auto& controls = stage.controls;
+  const bool asks_for_stress = goal.stress_above || goal.stress_below;
+  if (!goal.wall.empty()) {
+    const bool is_part = scene_.cell && !cell_axes_named(goal.wall).empty();
+    if (!is_part && planes_named(walls_, goal.wall).empty()) {
+      fault_(key + ".until.wall",
+             fmt::format("no plane or pair of planes is named \"{}\"", goal.wall), known_planes());
+    }
+    if (!asks_for_stress && !goal.strain) {
+      fault_(key + ".until.wall", "is of no use without a `strain` or a stress of it",
+             "Add `strain`, `stress_above` or `stress_below`, or leave it out.");
+    }
+  }
   const bool driven = std::any_of(controls.begin(), controls.end(), is_driven);
   const bool held = !std::all_of(controls.begin(), controls.end(), is_driven);
-  if ((goal.stress_above || goal.stress_below) && !driven) {
+  if (asks_for_stress && goal.wall.empty() && std::ranges::count_if(controls, is_driven) > 1) {
+    fault_(key + ".until", "asks for a stress, but several controls drive something",
+           "Name one of them by `wall`.");
+  }
+  if (asks_for_stress && goal.wall.empty() && !driven) {
     fault_(key + ".until", "asks for the stress on walls that are driven, but none is",
-           "Add a control with `strain_rate` or `speed`.");
+           "Add a control with `strain_rate` or `speed`, or name a `wall`.");
   }
   if (goal.stress_error && !held) {
     fault_(key + ".until", "asks how well servos hold their stress, but there is none",

@@ -4,28 +4,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "reckon/math/portable.hpp"
+#include "reckon/simulation/stage_setup.hpp"
 
 namespace reckon {
 namespace {
 
-/// The first planes that are moved by strain rate or speed.
-const WallControl* driven_planes(const StageSetup& stage) {
-  for (const WallControl& control : stage.controls) {
-    if (control.target != WallTarget::stress) return &control;
-  }
-  return nullptr;
-}
+/// The planes, and the parts of the cell, whose strain and stress a goal means.
+struct Watched {
+  std::vector<WallControl> planes;
+  std::vector<CellControl> parts;
+};
 
-/// The first part of the cell that is moved by a strain rate.
-const CellControl* driven_part(const StageSetup& stage) {
-  for (const CellControl& control : stage.cell_controls) {
-    if (control.target != WallTarget::stress) return &control;
+/// What the goal names, or else what the stage moves by strain rate or speed.
+Watched watched_by(const StageGoal& goal, const Simulation& simulation) {
+  Watched watched;
+  const StageSetup& stage = *simulation.stage();
+  if (goal.wall.empty()) {
+    const auto is_driven = [](const auto& control) { return control.target != WallTarget::stress; };
+    std::ranges::copy_if(stage.controls, std::back_inserter(watched.planes), is_driven);
+    std::ranges::copy_if(stage.cell_controls, std::back_inserter(watched.parts), is_driven);
+    return watched;
   }
-  return nullptr;
+  if (simulation.cell() != nullptr) {
+    for (const CellAxis axis : cell_axes_named(goal.wall)) {
+      watched.parts.push_back({.name = goal.wall, .axis = axis, .target = WallTarget::strain_rate});
+    }
+  }
+  for (auto& planes : planes_named(simulation.setup().walls, goal.wall)) {
+    watched.planes.push_back(
+        {.name = goal.wall, .walls = std::move(planes), .target = WallTarget::strain_rate});
+  }
+  return watched;
 }
 
 double strain_of(const CellControl& control, const CellState& state,
@@ -35,88 +50,113 @@ double strain_of(const CellControl& control, const CellState& state,
   return shear[static_cast<int>(control.axis) - static_cast<int>(CellAxis::xy)];
 }
 
-/// The largest along driven planes, or of an axis if there are none.
-double strain_since_start(const Simulation& simulation, const SampleMeasurement& sample) {
-  const StageSetup& stage = *simulation.stage();
-  if (driven_part(stage) != nullptr) {
-    double largest = 0;
-    for (const CellControl& control : stage.cell_controls) {
-      if (control.target == WallTarget::stress) continue;
-      const double strain = strain_of(control, simulation.cell_state(), sample);
-      largest = std::max(largest, std::abs(strain));
-    }
-    return largest;
-  }
-  if (driven_planes(stage) == nullptr) {
+/// The largest of what is watched, or of an axis if nothing is.
+double strain_since_start(const Watched& watched, const Simulation& simulation,
+                          const SampleMeasurement& sample) {
+  if (watched.parts.empty() && watched.planes.empty()) {
     const Vec3& strain = sample.strain;
     return std::max({std::abs(strain.x), std::abs(strain.y), std::abs(strain.z)});
   }
+  double largest = 0;
+  for (const CellControl& part : watched.parts) {
+    largest = std::max(largest, std::abs(strain_of(part, simulation.cell_state(), sample)));
+  }
   const auto start = simulation.space_at_stage_start();
   const auto now = simulation.space();
-  if (!start || !now) return 0;
-  double largest = 0;
-  for (const WallControl& control : stage.controls) {
-    if (control.target == WallTarget::stress) continue;
-    const double change = length_along(control, *start) / length_along(control, *now);
+  if (!start || !now) return largest;
+  for (const WallControl& planes : watched.planes) {
+    const double change = length_along(planes, *start) / length_along(planes, *now);
     largest = std::max(largest, std::abs(portable::log(change)));
   }
   return largest;
 }
 
-struct WallStresses {
-  double largest_error{0};                                  // of the servos, relative
-  double driven{std::numeric_limits<double>::quiet_NaN()};  // on the first driven planes [Pa]
+struct Stresses {
+  double largest_error{0};      // of the servos, relative
+  std::vector<double> watched;  // [Pa]
 };
 
-WallStresses wall_stresses(const Simulation& simulation) {
-  WallStresses result;
+Stresses stresses_now(const Watched& watched, const Simulation& simulation) {
+  Stresses result;
   const auto compare = [&result](double stress, double target) {
     const double lacking = std::abs(stress - target);
     result.largest_error = std::max(result.largest_error, target > 0 ? lacking / target : lacking);
   };
   const StageSetup& stage = *simulation.stage();
-  if (!stage.cell_controls.empty()) {
+  if (simulation.cell() != nullptr && !(stage.cell_controls.empty() && watched.parts.empty())) {
     const CellReaction reaction = simulation.cell_reaction();
     for (const CellControl& control : stage.cell_controls) {
-      const double stress = stress_of(control.axis, reaction, *simulation.cell());
-      if (control.target == WallTarget::stress) compare(stress, control.value);
-      if (&control == driven_part(stage)) {
-        // Grains resist shear against its direction.
-        result.driven = is_shear(control.axis) && control.value > 0 ? -stress : stress;
-      }
+      if (control.target != WallTarget::stress) continue;
+      compare(stress_of(control.axis, reaction, *simulation.cell()), control.value);
     }
-    if (stage.controls.empty()) return result;
+    for (const CellControl& part : watched.parts) {
+      const double stress = stress_of(part.axis, reaction, *simulation.cell());
+      // Grains resist shear against its direction.
+      result.watched.push_back(is_shear(part.axis) && part.value >= 0 ? -stress : stress);
+    }
   }
+  if (stage.controls.empty() && watched.planes.empty()) return result;
   const auto space = simulation.space();
   const std::vector<WallReaction> reactions = simulation.wall_reactions();
-  if (!space) return {std::numeric_limits<double>::infinity(), result.driven};
+  if (!space) {
+    result.largest_error = std::numeric_limits<double>::infinity();
+    return result;
+  }
   for (const WallControl& control : stage.controls) {
-    const double stress = stress_on(control, reactions, *space);
-    if (control.target == WallTarget::stress) {
-      compare(stress, control.value);
-    } else if (&control == driven_planes(stage)) {
-      result.driven = stress;
-    }
+    if (control.target != WallTarget::stress) continue;
+    compare(stress_on(control, reactions, *space), control.value);
+  }
+  for (const WallControl& planes : watched.planes) {
+    result.watched.push_back(stress_on(planes, reactions, *space));
   }
   return result;
 }
 
+/// Whether there are stresses that are watched and all of them are so.
+template <class Condition>
+bool all_stresses(const Stresses& stresses, Condition&& condition) {
+  return !stresses.watched.empty() && std::ranges::all_of(stresses.watched, condition);
+}
+
 }  // namespace
 
-bool reached(const StageGoal& goal, const Simulation& simulation, const Measurement& measurement,
-             const SampleMeasurement& sample) {
-  const WallStresses stresses = wall_stresses(simulation);
-  if (goal.unbalanced_ratio) {
-    const bool touching = measurement.contacts + measurement.wall_contacts > 0;
-    if (!touching || !(measurement.unbalanced_ratio < *goal.unbalanced_ratio)) return false;
+bool HeldCondition::look(std::uint64_t step, bool holds, std::uint64_t span) {
+  if (!holds) {
+    since_.reset();
+  } else if (!since_) {
+    since_ = step;
   }
-  if (goal.stress_error && !(stresses.largest_error <= *goal.stress_error)) return false;
-  if (goal.strain && !(strain_since_start(simulation, sample) >= *goal.strain)) return false;
-  if (goal.stress_above && !(stresses.driven > *goal.stress_above)) return false;
-  if (goal.stress_below && !(stresses.driven < *goal.stress_below)) return false;
-  if (goal.overlap && !(measurement.deepest_overlap < *goal.overlap)) return false;
-  if (goal.void_ratio && !(sample.enclosed && sample.void_ratio <= *goal.void_ratio)) return false;
-  return true;
+  return since_ && step - *since_ >= span;
+}
+
+double periods_of(const StageGoal& goal) {
+  if (goal.unbalanced_ratio || goal.stress_error || goal.overlap) return rest_periods;
+  return goal.stress_above || goal.stress_below ? passing_periods : 0;
+}
+
+GoalState look_at(const StageGoal& goal, const Simulation& simulation,
+                  const Measurement& measurement, const SampleMeasurement& sample) {
+  const Watched watched = watched_by(goal, simulation);
+  const Stresses stresses = stresses_now(watched, simulation);
+  const auto holds = [&] {
+    if (goal.unbalanced_ratio && !is_at_rest(measurement, *goal.unbalanced_ratio)) return false;
+    if (goal.stress_error && !(stresses.largest_error <= *goal.stress_error)) return false;
+    const auto above = [&](double stress) { return stress > *goal.stress_above; };
+    const auto below = [&](double stress) { return stress < *goal.stress_below; };
+    if (goal.stress_above && !all_stresses(stresses, above)) return false;
+    if (goal.stress_below && !all_stresses(stresses, below)) return false;
+    // Grains that gravity has yet to bring together do not overlap.
+    const bool in_flight = simulation.setup().body_force.gravity != Vec3{} &&
+                           measurement.carried_share < rest_carried_share;
+    return !goal.overlap || (!in_flight && measurement.deepest_overlap < *goal.overlap);
+  };
+  const auto has_passed = [&] {
+    if (goal.strain && !(strain_since_start(watched, simulation, sample) >= *goal.strain)) {
+      return false;
+    }
+    return !goal.void_ratio || (sample.enclosed && sample.void_ratio <= *goal.void_ratio);
+  };
+  return {.holds = holds(), .passed = has_passed()};
 }
 
 }  // namespace reckon

@@ -69,8 +69,9 @@ std::vector<std::string> stage_lines(const StagePlan& plan, double time_step) {
   if (plan.pace) {
     const StagePlan::Pace& pace = *plan.pace;
     const bool slow = pace.inertial_number <= quasi_static_inertial_number;
-    lines.push_back(fmt::format("inertial number {:.2g} at {:.4g} Pa: {}; {} makes {:.3g} 1/s",
-                                pace.inertial_number, pace.stress,
+    lines.push_back(fmt::format("inertial number {} at {:.4g} Pa: {}; {} makes {:.3g} 1/s",
+                                human_beside(pace.inertial_number, quasi_static_inertial_number),
+                                pace.stress,
                                 slow ? "quasi-static" : "TOO FAST to count as quasi-static",
                                 quasi_static_inertial_number, pace.advised_rate));
   }

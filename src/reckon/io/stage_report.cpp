@@ -6,71 +6,21 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "reckon/analysis/shear_curve.hpp"
-#include "reckon/core/error.hpp"
+#include "reckon/io/human.hpp"
+#include "reckon/simulation/stage_setup.hpp"
 
 namespace reckon {
 namespace {
 
-/// Numbers of a history by column and row.
-class Columns {
- public:
-  explicit Columns(const HistoryTable& history) : history_{history} {}
-
-  [[nodiscard]] bool has(std::string_view name) const { return place(name).has_value(); }
-  [[nodiscard]] double at(std::size_t row, std::string_view name) const {
-    const std::optional<std::size_t> column = place(name);
-    if (!column) {
-      throw Error{{.place = "history.csv",
-                   .problem = fmt::format("has no column \"{}\"", name),
-                   .reason = "it was changed, or written by another version of reckon",
-                   .fix = "Put its header back: docs/reference/history.md lists the columns."}};
-    }
-    const std::string& cell = history_.rows[row][*column];
-    double value = std::numeric_limits<double>::quiet_NaN();
-    std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    return value;
-  }
-
- private:
-  [[nodiscard]] std::optional<std::size_t> place(std::string_view name) const {
-    const auto found = std::find(history_.header.begin(), history_.header.end(), name);
-    if (found == history_.header.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - history_.header.begin());
-  }
-
-  const HistoryTable& history_;
-};
-
-constexpr std::array axes{"x", "y", "z"};
 constexpr std::array tensor{"xx", "yy", "zz", "xy", "yz", "zx"};
 
-/// The strain along the axis that the sample has been compressed along most, or a cell's shear if
-/// that is larger.
-std::string axial(const Columns& columns, std::size_t last_row) {
-  std::size_t most = 0;
-  const auto strain = [&](std::size_t axis) {
-    return columns.at(last_row, fmt::format("strain_{}", axes[axis]));
-  };
-  for (std::size_t axis = 1; axis < 3; ++axis) {
-    if (strain(axis) > strain(most)) most = axis;
-  }
-  for (const char* shear : {"cell_shear_xy", "cell_shear_xz", "cell_shear_yz"}) {
-    if (!columns.has(shear)) break;
-    if (std::abs(columns.at(last_row, shear)) > strain(most)) return shear;
-  }
-  return fmt::format("strain_{}", axes[most]);
-}
-
 /// The largest difference of the two stresses' components, over the mean stress.
-double disagreement(const Columns& columns, std::size_t row) {
+double disagreement(const HistoryColumns& columns, std::size_t row) {
   double largest = 0;
   for (const char* component : tensor) {
     largest =
@@ -86,29 +36,37 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-std::optional<StageFinding> finding(const std::string& name, bool free_volume,
-                                    const Columns& columns, const std::vector<std::size_t>& rows) {
-  const std::string strain = axial(columns, rows.back());
-  if (strain.starts_with("cell_shear"))
-    free_volume = false;  // the angle is of triaxial compression
+/// `before`: the row at which the stage began.
+std::optional<StageFinding> finding(const StageConfig& stage, bool free_volume,
+                                    const HistoryColumns& columns, std::size_t before,
+                                    const std::vector<std::size_t>& rows) {
+  const auto parts = cell_axes_named(driven_control(stage)->wall);
+  const bool is_sheared = !parts.empty() && is_shear(parts.front());
+  const double start = columns.at(before, "axial_strain");
   std::vector<ShearPoint> curve;
   std::vector<double> inertial_numbers;
   std::vector<double> disagreements;
   for (const std::size_t row : rows) {
-    curve.push_back({std::abs(columns.at(row, strain)), columns.at(row, "volumetric_strain"),
-                     columns.at(row, "friction_angle_deg")});
+    curve.push_back({std::abs(columns.at(row, "axial_strain") - start),
+                     columns.at(row, "volumetric_strain"), columns.at(row, "friction_angle_deg")});
     inertial_numbers.push_back(columns.at(row, "inertial_number"));
     disagreements.push_back(disagreement(columns, row));
   }
   const auto summary = summarize(curve);
   if (!summary) return std::nullopt;
+  const std::size_t last = rows.back();
+  const double strain = columns.at(last, "axial_strain") - start;
   return StageFinding{
-      .stage = name,
-      .free_volume = free_volume,
+      .stage = stage.name,
+      // The angle of dilatancy is that of compression.
+      .free_volume = free_volume && !is_sheared && strain > 0,
       .has_walls = !columns.has("cell_edge_x_m"),
       .shear = *summary,
-      .axial_strain = curve.back().axial_strain,
-      .void_ratio = columns.at(rows.back(), "void_ratio"),
+      .axial_strain = strain,
+      .total_axial_strain = columns.at(last, "axial_strain"),
+      .deviator_at_start = columns.at(before, "axial_deviator_Pa"),
+      .deviator_at_end = columns.at(last, "axial_deviator_Pa"),
+      .void_ratio = columns.at(last, "void_ratio"),
       .stress_disagreement = median(disagreements),
       .largest_disagreement = *std::max_element(disagreements.begin(), disagreements.end()),
       .inertial_number = median(inertial_numbers)};
@@ -116,21 +74,28 @@ std::optional<StageFinding> finding(const std::string& name, bool free_volume,
 
 std::string paragraph(const StageFinding& f) {
   const auto dilatancy = [&](const char* words, double angle) {
-    return f.free_volume ? fmt::format("{}{:.1f} deg", words, angle) : std::string{};
+    // Too few rows around the peak show no slope.
+    const bool is_known = f.free_volume && !std::isnan(angle);
+    return is_known ? fmt::format("{}{:.1f} deg", words, angle) : std::string{};
   };
-  std::string text = fmt::format("  {}: peak friction angle {:.1f} deg at {:.2f} % strain{}\n",
+  std::string text = fmt::format("  {}: peak friction angle {:.1f} deg at {:.2f} % strain{}{}\n",
                                  f.stage, f.shear.peak_friction_angle, 100 * f.shear.strain_at_peak,
-                                 dilatancy(", dilatancy angle there ", f.shear.dilatancy_angle));
+                                 dilatancy(", dilatancy angle there ", f.shear.dilatancy_angle),
+                                 f.shear.still_rising ? ", still rising at the end" : "");
   text += fmt::format("    at {:.1f} % strain: friction angle {:.1f} deg{}, void ratio {:.3f}\n",
-                      100 * f.axial_strain, f.shear.final_friction_angle,
+                      100 * std::abs(f.axial_strain), f.shear.final_friction_angle,
                       dilatancy(", dilatancy angle ", f.shear.final_dilatancy_angle), f.void_ratio);
+  text += fmt::format(
+      "    along the driven axis, compression positive: q from {:.4g} to {:.4g} Pa, strain {:.3g} "
+      "% in the stage, {:.3g} % since the start\n",
+      f.deviator_at_start, f.deviator_at_end, 100 * f.axial_strain, 100 * f.total_axial_strain);
   if (f.has_walls) {
     text += fmt::format(
         "    stress by contacts and by walls: {:.2g} % apart in the median row, {:.2g} % at most\n",
         100 * f.stress_disagreement, 100 * f.largest_disagreement);
   }
   text += fmt::format(
-      "    inertial number {:.1g}{}\n", f.inertial_number,
+      "    inertial number {}{}\n", human_beside(f.inertial_number, quasi_static_inertial_number),
       f.quasi_static()
           ? ": quasi-static"
           : fmt::format(": too fast to count as quasi-static (above {}); lower the rate",
@@ -157,26 +122,30 @@ std::string stage_note(const std::string& name, std::uint64_t steps, bool in_tim
   return text;
 }
 
+bool is_driven(const StageConfig& stage) { return driven_control(stage) != nullptr; }
+
 std::vector<StageFinding> stage_findings(const SceneConfig& scene, const HistoryTable& history) {
   if (scene.stages.empty() || !scene.output.sample) return {};
-  const Columns columns{history};
+  const HistoryColumns columns{history};
   std::vector<StageFinding> findings;
+  bool bulges = false;
   for (std::size_t n = 0; n < scene.stages.size(); ++n) {
-    const auto& controls = scene.stages[n].controls;
-    const auto held = std::count_if(controls.begin(), controls.end(), [](const ControlConfig& c) {
-      return c.target == WallTarget::stress;
-    });
-    if (static_cast<std::size_t>(held) == controls.size()) continue;
+    const StageConfig& stage = scene.stages[n];
+    bulges = bulges || stage.membrane.has_value();
+    if (!is_driven(stage)) continue;
+    const bool gives_way =
+        std::any_of(stage.controls.begin(), stage.controls.end(),
+                    [](const ControlConfig& c) { return c.target == WallTarget::stress; });
     std::vector<std::size_t> rows;
+    std::optional<std::size_t> before;  // the row at which the stage began
     for (std::size_t row = 0; row < history.rows.size(); ++row) {
+      const double number = columns.at(row, "stage");
+      if (number < static_cast<double>(n + 1) || !before) before = row;
       const bool known = columns.at(row, "mean_stress_Pa") > 0;
-      if (known && columns.at(row, "stage") == static_cast<double>(n + 1)) rows.push_back(row);
+      if (known && number == static_cast<double>(n + 1)) rows.push_back(row);
     }
-    const bool bulges =
-        std::any_of(scene.stages.begin(), scene.stages.begin() + static_cast<std::ptrdiff_t>(n) + 1,
-                    [](const StageConfig& s) { return s.membrane.has_value(); });
     if (rows.empty()) continue;
-    const auto found = finding(scene.stages[n].name, held > 0 || bulges, columns, rows);
+    const auto found = finding(stage, gives_way || bulges, columns, *before, rows);
     if (found) findings.push_back(*found);
   }
   return findings;

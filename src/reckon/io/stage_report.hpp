@@ -27,7 +27,11 @@ struct StageFinding {
   bool free_volume{false};  ///< some walls give way, so that dilatancy means something
   bool has_walls{true};     ///< a periodic cell has none to compare stresses with
   ShearSummary shear;
-  double axial_strain{0};          ///< at its end
+  // Along the axis that the test drives (StageSetup::axis), compression positive.
+  double axial_strain{0};          ///< at its end, since it began
+  double total_axial_strain{0};    ///< at its end, since step 0
+  double deviator_at_start{0};     ///< signed q [Pa]
+  double deviator_at_end{0};       ///< likewise [Pa]
   double void_ratio{0};            ///< at its end
   double stress_disagreement{0};   ///< of contacts and walls, over the mean stress: median row
   double largest_disagreement{0};  ///< likewise: the worst row
@@ -37,6 +41,9 @@ struct StageFinding {
     return inertial_number <= quasi_static_inertial_number;
   }
 };
+
+/// Whether a stage moves something by strain rate or speed.
+[[nodiscard]] bool is_driven(const StageConfig& stage);
 
 /// Empty without such stages, and where the history has no columns of the sample.
 [[nodiscard]] std::vector<StageFinding> stage_findings(const SceneConfig& scene,

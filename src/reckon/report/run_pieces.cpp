@@ -17,6 +17,8 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/io/history.hpp"
+#include "reckon/io/run_record.hpp"
+#include "reckon/io/run_verdict.hpp"
 #include "reckon/io/saved_fields.hpp"
 #include "reckon/io/stage_report.hpp"
 #include "reckon/report/piece.hpp"
@@ -66,6 +68,8 @@ void add_history(const RunFolder& folder, const SceneConfig& scene, std::size_t 
   }
   json.end();
   piece.add("history", numbers);
+  const RunVerdict verdict = verdict_on({scene, table, recorded_status(folder.own(folder.json()))});
+  json.value("verdict", verdict_text(verdict));
   json.value("findings", scene.stages.empty() ? std::string{} : stage_report(scene, table));
 }
 

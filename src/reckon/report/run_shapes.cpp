@@ -55,25 +55,6 @@ RunShape make_shape(const Shape& shape, bool with_surface, std::size_t triangles
 
 }  // namespace
 
-SceneConfig scene_of_run(const RunFolder& folder) {
-  if (!std::filesystem::exists(folder.resolved())) {
-    throw Error{{.place = folder.root().string(),
-                 .problem = "this is not the folder of a run",
-                 .reason = "it has no scene_resolved.toml",
-                 .fix = "Name a folder that `reckon run` has written."}};
-  }
-  const std::filesystem::path file = folder.own(folder.resolved());
-  SceneReading reading = read_scene_text(read_file(file), folder.root());
-  for (const SceneFault& fault : reading.faults) {
-    if (fault.is_of_other_file) continue;  // shapes that have gone since are told of later
-    throw Error{{.place = file.string(),
-                 .problem = "this is not a scene that a run has written",
-                 .reason = describe(fault, file.filename().string()),
-                 .fix = "Put the run's own file back: `reckon run` with --resume writes it anew."}};
-  }
-  return std::move(reading.config);
-}
-
 GrainsByShape grains_by_shape(const RunFolder& folder) {
   GrainsByShape counts;
   for (const std::uint64_t step : folder.field_steps("grains")) {

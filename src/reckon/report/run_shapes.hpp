@@ -8,15 +8,12 @@
 #include <vector>
 
 #include "reckon/io/run_folder.hpp"
+#include "reckon/io/saved_fields.hpp"
 #include "reckon/report/display_mesh.hpp"
 #include "reckon/shape/shape.hpp"
 #include "reckon/simulation/config.hpp"
 
 namespace reckon {
-
-/// The scene as it ran, without its files. Throws Error where the folder holds no run, or its
-/// scene_resolved.toml is not a scene.
-[[nodiscard]] SceneConfig scene_of_run(const RunFolder& folder);
 
 /// How many grains have each shape, by ShapeId. Not a list by shape: a damaged file may name any.
 using GrainsByShape = std::map<std::uint32_t, std::uint64_t>;

@@ -193,11 +193,12 @@ struct MembranePressureConfig {
 struct StageGoal {
   std::optional<double> unbalanced_ratio;  ///< below
   std::optional<double> stress_error;      ///< of all servos, relative
-  std::optional<double> strain;            ///< of some axis, since the stage began
-  std::optional<double> stress_above;      ///< on the walls that are driven [Pa]
-  std::optional<double> stress_below;      ///< likewise [Pa]
-  std::optional<double> void_ratio;        ///< not above
-  std::optional<double> overlap;           ///< of every node with a grain or wall, below [m]
+  std::string wall;                    ///< whose strain and stress; empty: what the stage drives
+  std::optional<double> strain;        ///< since the stage began
+  std::optional<double> stress_above;  ///< [Pa]
+  std::optional<double> stress_below;  ///< likewise [Pa]
+  std::optional<double> void_ratio;    ///< not above
+  std::optional<double> overlap;       ///< of every node with a grain or wall, below [m]
 };
 
 /// One stage of a test. What is absent is as for the whole scene.

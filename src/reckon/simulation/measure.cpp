@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <variant>
 
+#include "reckon/math/portable.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "reckon/simulation/exact_totals.hpp"
 #include "reckon/simulation/simulation.hpp"
@@ -16,20 +20,24 @@ struct Sums {
   ExactSum translation, rotation, gravity, elastic;
   ExactSum friction, dashpot, damping, fracture, body_work, wall_work, departed_energy;
   ExactSum net_force, contact_force, stretch;
+  ExactSum free_mass, carried_mass, free_kinetic, lift;
   ExactVec3 momentum;
   std::vector<ExactVec3> on_walls;
   std::int64_t grains{0}, departed{0}, contacts{0}, wall_contacts{0}, touching_nodes{0};
-  std::int64_t bonds{0}, broken_in_tension{0}, broken_in_shear{0};
+  std::int64_t bonds{0}, broken_in_tension{0}, broken_in_shear{0}, outside{0};
 
   /// Adds up what all ranks hold, digit by digit.
   void reduce(const Communicator& ranks) {
-    std::vector<ExactSum*> exact{
-        &translation, &rotation,   &gravity,         &elastic,   &friction,      &dashpot,
-        &damping,     &body_work,  &wall_work,       &net_force, &contact_force, &momentum.x,
-        &momentum.y,  &momentum.z, &departed_energy, &stretch,   &fracture};
+    std::vector<ExactSum*> exact{&translation, &rotation,   &gravity,         &elastic,
+                                 &friction,    &dashpot,    &damping,         &body_work,
+                                 &wall_work,   &net_force,  &contact_force,   &momentum.x,
+                                 &momentum.y,  &momentum.z, &departed_energy, &stretch,
+                                 &fracture,    &free_mass,  &carried_mass,    &free_kinetic,
+                                 &lift};
     for (ExactVec3& wall : on_walls) wall.list(exact);
-    std::array<std::int64_t, 8> counts{grains,   contacts, wall_contacts,     touching_nodes,
-                                       departed, bonds,    broken_in_tension, broken_in_shear};
+    std::array<std::int64_t, 9> counts{grains,   contacts, wall_contacts,     touching_nodes,
+                                       departed, bonds,    broken_in_tension, broken_in_shear,
+                                       outside};
     add_up(ranks, exact, counts);
     grains = counts[0];
     contacts = counts[1];
@@ -39,6 +47,7 @@ struct Sums {
     bonds = counts[5];
     broken_in_tension = counts[6];
     broken_in_shear = counts[7];
+    outside = counts[8];
   }
 };
 
@@ -60,12 +69,32 @@ EnergyBudget budget(const Sums& sums) {
 
 }  // namespace
 
+/// Whether a grain's centre is behind a wall. A mould that the membrane has replaced is none.
+bool Simulation::is_outside(std::size_t slot) const {
+  const std::span<const WallPose> poses = wall_contacts_.poses();
+  for (std::uint32_t w = 0; w < setup_.walls.size(); ++w) {
+    if (membrane() != nullptr && setup_.membrane->mould == WallId{w}) continue;
+    const Vec3 place = grains_.position[slot] - poses[w].displacement;
+    const double distance = std::visit([&](const auto& surface) { return surface.distance(place); },
+                                       setup_.walls[w].surface);
+    if (distance < 0) return true;
+  }
+  return false;
+}
+
 Measurement Simulation::measure() {
   bring_up_to_date();
   evaluate_contacts();
   std::vector<EnergyLedger> ledgers = grains_.ledger;  // with the losses up to this very step
   sum_loads(ledgers);
 
+  const auto diameter = [&](std::size_t slot) {
+    return portable::cbrt(6 / std::numbers::pi * frames_[slot].shape->mass.volume);
+  };
+  std::vector<std::uint8_t> carried(grains_.size(), 0);
+  const auto carry = [&](std::size_t slot) {
+    if (slot < carried.size()) carried[slot] = 1;
+  };
   Measurement result;
   result.step = step_;
   result.time = time();
@@ -82,6 +111,11 @@ Measurement Simulation::measure() {
       velocity = 0.5 * (velocity + half.velocity);
       spin = 0.5 * (spin + half.angular_velocity_body);
       sums.net_force.add(norm(load.force));
+      sums.free_mass.add(body.mass);
+      sums.free_kinetic.add(0.5 * body.mass * squared_norm(velocity));
+      sums.free_kinetic.add(0.5 * dot(hadamard(body.moments, spin), spin));
+      sums.lift.add(body.mass * norm(setup_.body_force.gravity) * diameter(slot));
+      if (is_outside(slot)) ++sums.outside;
     }
     sums.translation.add(0.5 * body.mass * squared_norm(velocity));
     sums.rotation.add(0.5 * dot(hadamard(body.moments, spin), spin));
@@ -92,14 +126,23 @@ Measurement Simulation::measure() {
   }
   for (std::size_t p = 0; p < grain_contacts_.pairs().size(); ++p) {
     const PairForce& pair = grain_contacts_.forces()[p];
+    const std::uint32_t slot_a = grain_contacts_.pairs()[p].slot_a;
+    const std::uint32_t slot_b = grain_contacts_.pairs()[p].slot_b;
+    if (!pair.holds()) continue;
+    if (norm(pair.force_on_a) > 0) {
+      carry(slot_a);
+      carry(slot_b);
+    }
     // A pair that two ranks share is counted by the owner of its first grain.
-    if (!pair.holds() || grain_contacts_.pairs()[p].slot_a >= grains_.size()) continue;
+    if (slot_a >= grains_.size()) continue;
     ++sums.contacts;
     if (pair.bonded) ++sums.bonds;
     sums.touching_nodes += pair.touching;
     sums.elastic.add(pair.elastic);
     sums.contact_force.add(norm(pair.force_on_a));
     result.deepest_overlap = std::max(result.deepest_overlap, pair.deepest);
+    result.overlap_ratio =
+        std::max(result.overlap_ratio, pair.deepest / std::min(diameter(slot_a), diameter(slot_b)));
   }
   sums.on_walls.resize(setup_.walls.size());
   for (std::size_t c = 0; c < wall_contacts_.forces().size(); ++c) {
@@ -110,7 +153,10 @@ Measurement Simulation::measure() {
     sums.elastic.add(wall.elastic);
     sums.contact_force.add(norm(wall.force));
     sums.on_walls[wall_contacts_.candidates()[c].wall.get()].add(-wall.force);
+    const std::size_t slot = wall_contacts_.candidates()[c].slot;
+    if (norm(wall.force) > 0) carry(slot);
     result.deepest_overlap = std::max(result.deepest_overlap, wall.deepest);
+    result.overlap_ratio = std::max(result.overlap_ratio, wall.deepest / diameter(slot));
   }
   for (const MembraneForce& force : membrane_contacts_.forces()) {
     if (force.touching == 0) continue;
@@ -118,7 +164,12 @@ Measurement Simulation::measure() {
     sums.touching_nodes += force.touching;
     sums.elastic.add(force.elastic);
     sums.contact_force.add(norm(force.force));
+    if (norm(force.force) > 0) carry(force.slot);
     result.deepest_overlap = std::max(result.deepest_overlap, force.deepest);
+    result.overlap_ratio = std::max(result.overlap_ratio, force.deepest / diameter(force.slot));
+  }
+  for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
+    if (carried[slot] != 0 && grains_.prescribed[slot] == 0) sums.carried_mass.add(mass(slot));
   }
   // All ranks hold the whole membrane.
   const std::uint32_t told = membrane() != nullptr && distribution_.ranks().is_root()
@@ -146,6 +197,7 @@ Measurement Simulation::measure() {
   const Communicator& ranks = distribution_.ranks();
   sums.reduce(ranks);
   result.deepest_overlap = ranks.max(result.deepest_overlap);
+  result.overlap_ratio = ranks.max(result.overlap_ratio);
   result.largest_speed = ranks.max(result.largest_speed);
 
   result.grains = static_cast<std::uint64_t>(sums.grains);
@@ -172,10 +224,18 @@ Measurement Simulation::measure() {
   if (grain_count > 0) {
     result.coordination = static_cast<double>(2 * sums.contacts + sums.wall_contacts) / grain_count;
   }
-  if (touching_pairs > 0 && sums.contact_force.value() > 0) {
-    result.unbalanced_ratio =
-        (sums.net_force.value() / grain_count) / (sums.contact_force.value() / touching_pairs);
-  }
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  result.unbalanced_ratio =
+      sums.contact_force.value() > 0
+          ? (sums.net_force.value() / grain_count) / (sums.contact_force.value() / touching_pairs)
+          : infinite;
+  const double free_mass = sums.free_mass.value();
+  if (free_mass > 0) result.carried_share = sums.carried_mass.value() / free_mass;
+  // Without gravity the springs hold the grains; under gravity alone springs may be so stiff that
+  // they store next to nothing, and the energy to rise by a diameter is the measure.
+  const double holding = result.energy.elastic + sums.lift.value();
+  result.kinetic_ratio = holding > 0 ? sums.free_kinetic.value() / holding : infinite;
+  result.outside = static_cast<std::uint64_t>(sums.outside);
   return result;
 }
 

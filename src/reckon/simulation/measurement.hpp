@@ -43,19 +43,36 @@ struct Measurement {
   std::uint64_t contacts{0};       ///< touching pairs of grains
   std::uint64_t wall_contacts{0};  ///< touching pairs of grain and wall
   std::uint64_t touching_nodes{0};
-  double coordination{0};           ///< contacts per grain, walls included
-  double unbalanced_ratio{0};       ///< mean net force on a grain / mean contact force
-  double deepest_overlap{0};        ///< [m]
-  double largest_speed{0};          ///< [m/s]
-  Vec3 momentum;                    ///< [kg m/s]
-  std::vector<Vec3> wall_force;     ///< of the grains on each wall [N]
-  double membrane_pressure{0};      ///< [Pa]
-  double membrane_stretch{0};       ///< energy in its bonds, part of `elastic` [J]
+  double coordination{0};  ///< contacts per grain, walls included
+  /// Mean net force on a grain / mean contact force; infinite where no contact carries a force.
+  double unbalanced_ratio{0};
+  double carried_share{0};       ///< of the free grains' mass: of grains that a contact pushes
+  double kinetic_ratio{0};       ///< kinetic energy of free grains / (elastic + lift by a diameter)
+  double deepest_overlap{0};     ///< [m]
+  double overlap_ratio{0};       ///< largest overlap / diameter of the smaller grain of the contact
+  std::uint64_t outside{0};      ///< free grains whose centre is behind a wall
+  double largest_speed{0};       ///< [m/s]
+  Vec3 momentum;                 ///< [kg m/s]
+  std::vector<Vec3> wall_force;  ///< of the grains on each wall [N]
+  double membrane_pressure{0};   ///< [Pa]
+  double membrane_stretch{0};    ///< energy in its bonds, part of `elastic` [J]
   std::uint64_t membrane_nodes{0};  ///< of it that touch a grain
   std::uint64_t bonds{0};           ///< that hold
   BrokenBonds broken_bonds;
 
   friend bool operator==(const Measurement&, const Measurement&) = default;
 };
+
+/// At rest, this share of the mass at least lies on something.
+constexpr double rest_carried_share = 0.5;
+
+/// Whether the assembly is at rest to this ratio, as far as one step can show. Small net forces
+/// alone do not mean rest: grains in flight have some, and the few contacts of a rebound carry no
+/// force or a large one. So contacts must carry most of the grains, and the kinetic energy must be
+/// below the same ratio of what holds them.
+[[nodiscard]] inline bool is_at_rest(const Measurement& m, double ratio) {
+  return m.unbalanced_ratio < ratio && m.carried_share >= rest_carried_share &&
+         m.kinetic_ratio <= ratio;
+}
 
 }  // namespace reckon

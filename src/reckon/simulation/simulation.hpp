@@ -34,6 +34,14 @@ struct MembranePressure {
   double ramp{0};      ///< how long it takes to get there [s]
 };
 
+/// The axis that a test is about: that of the walls, or of the part of the cell, that a stage
+/// drives.
+struct DrivenAxis {
+  Vec3 normal_unit{0, 0, 1};
+  std::vector<WallId> walls;       ///< that are driven along it; none in a periodic cell
+  std::optional<CellAxis> cell{};  ///< of a periodic cell; may be a shear
+};
+
 /// What holds for one stage of a test.
 struct StageSetup {
   std::string name;
@@ -43,6 +51,8 @@ struct StageSetup {
   double damping{0};                  ///< global damping xi [1/s]
   std::vector<WallControl> controls;
   std::vector<CellControl> cell_controls;
+  /// Of the stage before that drives something, or the next one; z if none does.
+  DrivenAxis axis;
   std::optional<MembranePressure> membrane;  ///< none: not in place yet
   bool sets_bonds{false};                    ///< at its start, where grains touch
 };
@@ -188,6 +198,8 @@ class Simulation {
   /// not, or its volume is not known.
   [[nodiscard]] std::optional<Enclosure> space() const;
   [[nodiscard]] std::optional<Enclosure> space_at_stage_start() const;
+  /// The same at step 0, where the membrane is still its mould.
+  [[nodiscard]] std::optional<Enclosure> space_at_start() const;
   /// What the walls feel as of the last evaluation, summed over all ranks. Collective.
   [[nodiscard]] std::vector<WallReaction> wall_reactions() const;
   /// Where the grains of this rank are, then its ghosts, as of the last evaluation.
@@ -242,6 +254,7 @@ class Simulation {
   [[nodiscard]] double longest_gap() const;
   [[nodiscard]] bool some_budget_is_used_up() const;
   [[nodiscard]] bool is_out(std::size_t slot) const;
+  [[nodiscard]] bool is_outside(std::size_t slot) const;
   [[nodiscard]] bool motion_is_finite(std::size_t slot) const;
   [[noreturn]] void fail_on_motion() const;
   [[nodiscard]] Vec3 push_besides_gravity(std::size_t slot) const;

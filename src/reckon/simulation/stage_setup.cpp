@@ -48,6 +48,49 @@ std::vector<CellAxis> cell_axes_named(std::string_view name) {
   return {static_cast<CellAxis>(found - names.begin())};
 }
 
+const ControlConfig* driven_control(const StageConfig& stage) {
+  const ControlConfig* found = nullptr;
+  for (const ControlConfig& control : stage.controls) {
+    if (control.target == WallTarget::stress) continue;
+    if (found == nullptr || std::abs(control.value) > std::abs(found->value)) found = &control;
+  }
+  return found;
+}
+
+namespace {
+
+std::optional<DrivenAxis> driven_axis(const SceneConfig& scene, const StageConfig& stage,
+                                      std::span<const Wall> walls) {
+  const ControlConfig* control = driven_control(stage);
+  if (control == nullptr) return std::nullopt;
+  if (const auto parts = cell_axes_named(scene.cell ? control->wall : ""); !parts.empty()) {
+    Vec3 normal;
+    if (!is_shear(parts.front())) normal[static_cast<int>(parts.front())] = 1;
+    return DrivenAxis{.normal_unit = normal, .walls = {}, .cell = parts.front()};
+  }
+  const auto planes = planes_named(walls, control->wall);
+  if (planes.empty()) return std::nullopt;
+  const Wall& first = walls[planes.front().front().get()];
+  return DrivenAxis{.normal_unit = std::get<PlaneSurface>(first.surface).normal_unit,
+                    .walls = planes.front(),
+                    .cell = {}};
+}
+
+/// Stages that drive nothing look along the axis of the one before that does, or of the next.
+void set_axes(const SceneConfig& scene, std::span<const Wall> walls,
+              std::vector<StageSetup>& stages) {
+  std::optional<DrivenAxis> axis;
+  for (const StageConfig& stage : scene.stages) {
+    if (!axis) axis = driven_axis(scene, stage, walls);
+  }
+  for (std::size_t n = 0; n < stages.size(); ++n) {
+    if (const auto own = driven_axis(scene, scene.stages[n], walls)) axis = own;
+    if (axis) stages[n].axis = *axis;
+  }
+}
+
+}  // namespace
+
 double mean_diameter(std::span<const GrainState> grains, std::span<const ShapeSummary> shapes) {
   ExactSum volumes;
   ExactSum weighted;
@@ -115,6 +158,7 @@ std::vector<StageSetup> make_stages(const SceneConfig& scene, std::span<const Wa
     }
     stages.push_back(std::move(stage));
   }
+  set_axes(scene, walls, stages);
   return stages;
 }
 

@@ -22,6 +22,10 @@ namespace reckon {
 /// all three edges. None when it does not name a part of the cell.
 [[nodiscard]] std::vector<CellAxis> cell_axes_named(std::string_view name);
 
+/// What a stage moves by strain rate or speed: the control with the largest value. None when the
+/// stage drives nothing.
+[[nodiscard]] const ControlConfig* driven_control(const StageConfig& stage);
+
 /// The volume-weighted mean diameter of spheres as large as the grains [m].
 [[nodiscard]] double mean_diameter(std::span<const GrainState> grains,
                                    std::span<const ShapeSummary> shapes);

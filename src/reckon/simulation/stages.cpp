@@ -106,6 +106,12 @@ std::optional<Enclosure> Simulation::space_at_stage_start() const {
   return enclosure_of(setup_.walls, poses_at(setup_.walls, then, start, setup_.time_step));
 }
 
+std::optional<Enclosure> Simulation::space_at_start() const {
+  const std::size_t walls = setup_.walls.size();
+  if (cell_) return inside(*cell_, UpperMat3{setup_.cell->size, 0, 0, 0}, walls);
+  return enclosure_of(setup_.walls, poses_at(setup_.walls, {}, 0, setup_.time_step));
+}
+
 std::vector<WallReaction> Simulation::wall_reactions() const {
   const std::size_t walls = setup_.walls.size();
   std::vector<ExactSum> sums(3 * walls);  // forces, then stiffnesses, then dashpots

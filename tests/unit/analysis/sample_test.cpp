@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "support/test_shapes.hpp"
@@ -101,6 +102,40 @@ TEST(Sample, SphereBetweenPlatensCarriesForceOverArea) {
   EXPECT_LT(std::abs(sample.stress.row_x.x), 1e-3 * sample.stress.row_z.z);
   EXPECT_EQ(sample.coordination, 2);
   EXPECT_EQ(sample.contact_tensor, (Mat3{Vec3{}, Vec3{}, Vec3{}}));
+}
+
+/// One of two equal spheres lies on a wall, the other flies.
+TEST(Measurement, SaysWhatIsCarriedHowDeepAndHowFast) {
+  const auto shapes = testing::library_of({testing::sphere(1.0, 4000)});
+  const SimulationSetup setup = cube(shapes, 5);
+  SimulationState state;
+  state.grains.resize(2);
+  state.grains[0].position = {-4.02, 0, 0};
+  state.grains[1].id = GrainId{1};
+  state.grains[1].position = {2, 0, 0};
+  state.grains[1].velocity = {0, 1e-3, 0};
+  Simulation simulation{setup, state};
+  Measurement m = simulation.measure();
+  EXPECT_EQ(m.carried_share, 0.5);
+  EXPECT_EQ(m.outside, 0U);
+  const double volume = simulation.shapes()[0].mass.volume;
+  EXPECT_NEAR(m.overlap_ratio, m.deepest_overlap / std::cbrt(6 * volume / std::numbers::pi), 1e-15);
+  EXPECT_NEAR(m.overlap_ratio, 0.01, 1e-3);
+  EXPECT_GT(m.energy.elastic, 0);
+  const double kinetic = m.energy.translation + m.energy.rotation;
+  EXPECT_NEAR(m.kinetic_ratio * m.energy.elastic / kinetic, 1, 1e-12);
+  m.unbalanced_ratio = 0.001;
+  m.kinetic_ratio = 0.001;
+  EXPECT_TRUE(is_at_rest(m, 0.01));
+  m.carried_share = 0.4;
+  EXPECT_FALSE(is_at_rest(m, 0.01));
+
+  state.grains[0].position = {-3, 0, 0};
+  const Measurement flight = Simulation{setup, state}.measure();
+  EXPECT_EQ(flight.carried_share, 0);
+  EXPECT_EQ(flight.unbalanced_ratio, std::numeric_limits<double>::infinity());
+  state.grains[0].position = {-5.1, 0, 0};
+  EXPECT_EQ(Simulation(setup, state).measure().outside, 1U);
 }
 
 /// Love-Weber and wall stress differ by the grains' net forces times their places, over the volume:

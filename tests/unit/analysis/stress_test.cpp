@@ -61,6 +61,20 @@ TEST(ShearCurve, ASingleWiggleMakesNoPeak) {
   EXPECT_LT(summarize(curve)->peak_friction_angle, 31);
 }
 
+/// A stage of a cyclic test is shorter than the usual window, over which its peak would be hidden.
+TEST(ShearCurve, NoPeakIsBelowTheFinalValue) {
+  std::vector<ShearPoint> curve;
+  for (int n = 0; n <= 100; ++n) curve.push_back({3e-5 * n, 0, 0.22 * n});
+  const auto rising = summarize(curve);
+  EXPECT_NEAR(rising->final_friction_angle, 19.8, 0.1);
+  EXPECT_GE(rising->peak_friction_angle, rising->final_friction_angle);
+  EXPECT_TRUE(rising->still_rising);
+  for (std::size_t n = 50; n < curve.size(); ++n) curve[n].friction_angle = 8;
+  const auto peaked = summarize(curve);
+  EXPECT_NEAR(peaked->peak_friction_angle, 10.5, 0.4);
+  EXPECT_FALSE(peaked->still_rising);
+}
+
 TEST(ShearCurve, NothingWithoutShear) {
   EXPECT_FALSE(summarize({}).has_value());
   const std::vector<ShearPoint> still(5);

@@ -75,7 +75,7 @@ motion = { velocity = [0, 0, -0.4] }
   static constexpr const char* stages = R"(
 [[stage]]
 name = "press"
-steps = 700
+steps = 1500
 until = { stress_error = 0.5, unbalanced_ratio = 0.9 }
 friction = 0.1
 gravity = [0, 0, 0]

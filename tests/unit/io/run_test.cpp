@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "reckon/core/error.hpp"
@@ -199,6 +200,35 @@ TEST_F(RunTest, StopsAtRestWhereAnUninterruptedRunDoes) {
   expect_equal_folders(root_ / "whole", root_ / "parts");
   EXPECT_EQ(run(text, {.folder = root_ / "parts", .resume = true}).end, RunEnd::nothing_to_do);
   expect_equal_folders(root_ / "whole", root_ / "parts");
+}
+
+/// The first grains that come down bounce: their contacts carry no force, or a large one, at some
+/// step, while all others fall. That is no rest.
+TEST_F(RunTest, AReboundInMidFallIsNoRest) {
+  std::string text = scene_text(
+      "[time]\nsteps = 40000\nstop_at_unbalanced_ratio = 0.02\n[output]\nhistory_interval = 1\n");
+  text = with(text, "random_acceleration = 3\nrandom_interval = 7\n");
+  text = with(text, "motion = { velocity = [0, 0, -0.4] }\n");
+  const RunReport report = run(text, {.folder = root_ / "whole"});
+  EXPECT_EQ(report.end, RunEnd::at_rest);
+  EXPECT_TRUE(report.verdict.valid()) << verdict_text(report.verdict);
+  EXPECT_GE(report.last.carried_share, 0.9);
+  EXPECT_LE(report.last.kinetic_ratio, 0.02);
+  // Rest has lasted: it was seen at one step after another.
+  const std::vector<double> ratio = column("unbalanced_ratio");
+  ASSERT_GT(ratio.size(), 300U);
+  for (std::size_t n = ratio.size() - 300; n < ratio.size(); ++n) EXPECT_LT(ratio[n], 0.02);
+  // Contacts without a force, or none, make no small ratio.
+  EXPECT_EQ(ratio.front(), std::numeric_limits<double>::infinity());
+
+  const RunReport fall = run(text, {.folder = root_ / "fall", .steps = 200});
+  ASSERT_FALSE(fall.verdict.valid());
+  EXPECT_EQ(fall.verdict.reasons[0].code, "not_at_rest");
+  const RunVerdict later = verdict_of(RunFolder{root_ / "fall"});
+  EXPECT_NE(verdict_text(later).find("not at rest at step 200"), std::string::npos);
+  EXPECT_EQ(
+      run(text, {.folder = root_ / "fall", .resume = true, .steps = 200}).verdict.reasons[0].code,
+      "not_at_rest");
 }
 
 TEST_F(RunTest, TwoProcessesDoNotShareAFolder) {

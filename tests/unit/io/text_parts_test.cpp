@@ -91,5 +91,14 @@ TEST(Human, Sizes) {
   EXPECT_EQ(human_count(1234567), "1,234,567");
 }
 
+/// "0.001: too fast" beside "0.001: quasi-static" would say nothing.
+TEST(HumanBeside, ShowsOnWhichSideOfALimitANumberLies) {
+  EXPECT_EQ(human_beside(0.00042, 0.001), "0.00042");
+  EXPECT_EQ(human_beside(0.00104, 0.001), "0.00104");
+  EXPECT_EQ(human_beside(0.0010004, 0.001), "0.0010004");
+  EXPECT_EQ(human_beside(0.001, 0.001), "0.001");
+  EXPECT_EQ(human_beside(0.0347, 0.001), "0.035");
+}
+
 }  // namespace
 }  // namespace reckon

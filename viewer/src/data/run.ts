@@ -80,6 +80,7 @@ export interface HeadText {
   log: string;
   history_rows: number;
   columns: { name: string; meaning: string }[];
+  verdict: string; // why the figures mean nothing; empty where they mean something
   findings: string;
   walls: Wall[];
   cell: boolean; // periodic

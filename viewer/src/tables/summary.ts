@@ -57,6 +57,7 @@ export function summary(runs: readonly Run[]): HTMLElement {
     return h(
       "section",
       { id: "summary" },
+      verdict(runs[0]),
       h(
         "dl",
         { class: "figures" },
@@ -70,6 +71,10 @@ export function summary(runs: readonly Run[]): HTMLElement {
   return h(
     "section",
     { id: "summary" },
+    ...runs.map((run) => {
+      const found = verdict(run);
+      return found && h("div", {}, h("h3", {}, run.text.name), found);
+    }),
     h(
       "div",
       { class: "scroll" },
@@ -100,6 +105,12 @@ export function summary(runs: readonly Run[]): HTMLElement {
       return found && h("div", {}, h("h3", {}, run.text.name), found);
     }),
   );
+}
+
+/** Why the figures mean nothing, before any of them. */
+function verdict(run: Run): HTMLElement | null {
+  const text = run.text.verdict ?? "";
+  return text ? h("pre", { class: "failure verdict" }, text.trimEnd()) : null;
 }
 
 function findings(run: Run): HTMLElement | null {
