@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/core/file.hpp"
 #include "reckon/io/scene_loader.hpp"
 #include "reckon/simulation/setup.hpp"
 #include "support/legacy_data.hpp"
@@ -73,6 +74,24 @@ TEST_F(Legacy592, WithFrictionPathsPartByTheReferencesShearFaults) {
   EXPECT_EQ(found[0], 0);
   EXPECT_LT(found[1], 0.05);
   EXPECT_LT(found[4], 0.2);
+}
+
+/// Readers who put the reference's faults in must find the lines that the default engine runs.
+TEST(Legacy592Page, NamesTheCodeOfTheDefaultEngine) {
+  const std::string root = RECKON_SOURCE_DIR "/";
+  const std::string page = read_file(root + "docs/verification/legacy592.md");
+  const auto has = [&](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  };
+  has(page, "`answer()` of `src/reckon/contact/law_lanes.cpp`");
+  has(page, "`rotate_between(b.old_spring[n], normal, b.old_normal[n])`");
+  has(read_file(root + "src/reckon/contact/law_lanes.cpp"),
+      "rotate_between(b.old_spring[n], b.old_normal[n], normal)");
+  has(page, "`TouchBatch::sum()` of `src/reckon/contact/touch_batch.hpp`");
+  has(page, "`new_springs.push_back(gone)`");
+  const std::string batch = read_file(root + "src/reckon/contact/touch_batch.hpp");
+  has(batch, "let_go = [&](const NodeSpring& gone)");
+  has(batch, "new_springs.push_back(");
 }
 
 }  // namespace
