@@ -13,7 +13,7 @@ namespace reckon {
 namespace {
 
 constexpr double coarsest = 0.25;  // spacing over thickness: a ball sinks in by 2 % of itself
-constexpr double coarsest_at_edge = 0.125;  // an edge sinks into a face by half a spacing: 6 %
+constexpr double coarsest_at_edge = 0.2;  // an edge sinks into a face by half a spacing
 
 /// What matters of a shape here.
 struct Grid {
