@@ -60,11 +60,32 @@ Worst worst_in(const std::vector<std::size_t>& order, const std::vector<Grid>& g
   return worst;
 }
 
-/// With nodes of both grains, and at walls, a shape must do for itself: whatever is larger then
-/// does not matter, and what is smaller has nodes of its own.
-Worst worst_alone(const std::vector<std::size_t>& shapes, const std::vector<Grid>& grids) {
+/// Of a shape: its grains, and those that move.
+struct Count {
+  std::size_t all{0};
+  std::size_t free{0};
+};
+
+/// The worst shape that is too coarse for itself, on a wall or where it meets one that is no finer.
+/// With nodes of both grains, that is where a pair is: what is larger is seen by the smaller one.
+Worst worst_alone(const std::vector<Grid>& grids, const std::vector<Count>& counts, bool walls,
+                  double allowed) {
+  const auto meets_coarse = [&](std::size_t shape) {
+    if (counts[shape].free > 0 && (walls || counts[shape].all > 1)) return true;
+    for (std::size_t other = 0; other < grids.size(); ++other) {
+      if (other == shape || counts[shape].free + counts[other].free == 0) continue;
+      const double thinner = std::min(grids[shape].thickness, grids[other].thickness);
+      if (counts[other].all > 0 && grids[other].spacing > allowed * thinner) return true;
+    }
+    return false;
+  };
   Worst worst;
-  for (const std::size_t shape : shapes) worst.look(shape, shape, grids);
+  for (std::size_t shape = 0; shape < grids.size(); ++shape) {
+    if (counts[shape].all == 0) continue;
+    Worst found = worst;
+    found.look(shape, shape, grids);
+    if (found.ratio > std::max(worst.ratio, allowed) && meets_coarse(shape)) worst = found;
+  }
   return worst;
 }
 
@@ -80,9 +101,12 @@ std::optional<std::string> coarse_nodes(const LoadedScene& scene) {
   std::vector<std::size_t> by_id;
   by_id.reserve(scene.grains.size());
   for (const GrainState& grain : scene.grains) by_id.push_back(grain.shape.get());
-  std::vector<std::size_t> in_use = by_id;
-  std::sort(in_use.begin(), in_use.end());
-  in_use.erase(std::unique(in_use.begin(), in_use.end()), in_use.end());
+  std::vector<Count> counts(grids.size());
+  for (const GrainState& grain : scene.grains) {
+    Count& count = counts[grain.shape.get()];
+    ++count.all;
+    if (!grain.prescribed) ++count.free;
+  }
 
   const auto nodes_for = [&](std::size_t shape, double spacing) {
     return static_cast<std::uint64_t>(
@@ -112,15 +136,15 @@ std::optional<std::string> coarse_nodes(const LoadedScene& scene) {
                  ", or take contact.master = \"both\"");
     }
   }
-  const Worst alone = worst_alone(in_use, grids);
-  if (alone.ratio > coarsest) return say(alone, coarsest, "the shape itself", "");
   const auto& walls = scene.config.walls;
+  const Worst alone = worst_alone(grids, counts, !walls.empty(), coarsest);
+  if (alone.ratio > coarsest) return say(alone, coarsest, "the shape itself", "");
   const bool has_edge = std::any_of(walls.begin(), walls.end(), [](const WallConfig& wall) {
     return std::holds_alternative<LedgeConfig>(wall.geometry);
   });
   if (!has_edge) return std::nullopt;
   for (Grid& grid : grids) grid.is_sphere = false;
-  const Worst at_edge = worst_alone(in_use, grids);
+  const Worst at_edge = worst_alone(grids, counts, true, coarsest_at_edge);
   if (at_edge.ratio <= coarsest_at_edge) return std::nullopt;
   return "a ledge has an edge; " + say(at_edge, coarsest_at_edge, "the shape itself", "");
 }

@@ -52,25 +52,26 @@ TEST(NodeSpacing, ServesInAnyOrderWhereTheSmallerOrBothAreMasters) {
 
 TEST(NodeSpacing, IsTooWideOnAShapeOfFewNodesOrAThinOne) {
   const Shape few = testing::bumpy_grain(1.0, 30, 16);
-  const auto of_few = coarse_nodes(scene_of({few}, MasterRule::both));
+  const auto of_few = coarse_nodes(scene_of({few, few}, MasterRule::both));
   ASSERT_TRUE(of_few);
   EXPECT_EQ(of_few->find("contact.master"), std::string::npos) << *of_few;
   const Shape plate = testing::box({1, 1, 0.05}, 7, 0.02);
-  EXPECT_TRUE(coarse_nodes(scene_of({plate}, MasterRule::both)));
+  EXPECT_TRUE(coarse_nodes(scene_of({plate, plate}, MasterRule::both)));
+  EXPECT_FALSE(coarse_nodes(scene_of({plate, small()}, MasterRule::both)));  // whose nodes see it
 }
 
 TEST(NodeSpacing, DoesNotMatterForSpheresWithoutNodes) {
   Shape sphere = testing::sphere(1.0, 30);
-  EXPECT_TRUE(coarse_nodes(scene_of({sphere}, MasterRule::both)));
+  EXPECT_TRUE(coarse_nodes(scene_of({sphere, sphere}, MasterRule::both)));
   sphere.sphere_radius = 1;
-  LoadedScene scene = scene_of({sphere}, MasterRule::both);
+  LoadedScene scene = scene_of({sphere, sphere}, MasterRule::both);
   EXPECT_FALSE(coarse_nodes(scene));
   scene.config.contact.law = ContactLawKind::linear;
   EXPECT_TRUE(coarse_nodes(scene));
 }
 
 TEST(NodeSpacing, MustBeFinerAtTheEdgeOfALedge) {
-  const Shape middling = testing::bumpy_grain(1.0, 85, 16);
+  const Shape middling = testing::box({1, 1, 0.9}, 4, 0.1);  // h = 0.21 t
   LoadedScene scene = scene_of({middling}, MasterRule::both);
   EXPECT_FALSE(coarse_nodes(scene));
   WallConfig wall;
