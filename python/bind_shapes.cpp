@@ -44,6 +44,7 @@ py::dict descriptors(const SharedShape& shape) {
   all["thickness"] = d.thickness;
   all["surface_area"] = d.surface_area;
   all["equivalent_diameter"] = d.equivalent_diameter;
+  all["sieve_size"] = d.sieve_size;
   all["elongation"] = d.elongation;
   all["flatness"] = d.flatness;
   all["sphericity"] = d.sphericity;
@@ -111,7 +112,7 @@ void save(const std::vector<SharedShape>& shapes, const std::filesystem::path& p
   ShapeLibrary library;
   library.reserve(shapes.size());
   for (const SharedShape& shape : shapes) library.push_back(*shape);
-  save_library(path, library);
+  save_library(path, library, {{}, {"reckon.save_shapes"}, {}});
 }
 
 /// A library file whose shapes are read when they are asked for.

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -86,6 +88,25 @@ double parse_length_unit(const std::string& option, const std::string& text) {
   return one.value;
 }
 
+Provenance provenance_of(const CommandWords& words, const std::vector<std::string>& sources) {
+  constexpr std::array<std::string_view, 5> with_value{"--output", "--out", "-o", "--threads",
+                                                       "--memory"};
+  Provenance made{{}, {}, source_files(sources)};
+  for (std::size_t w = 0; w < words.size(); ++w) {
+    const std::string_view word = words[w];
+    if (word == "--json") continue;
+    const bool skipped = std::any_of(with_value.begin(), with_value.end(), [&](auto option) {
+      return word == option || word.starts_with(std::string{option} + "=");
+    });
+    if (skipped) {
+      if (word.find('=') == std::string_view::npos) ++w;
+    } else if (!word.starts_with("-o")) {  // also -ofile.h5
+      made.command.push_back(words[w]);
+    }
+  }
+  return made;
+}
+
 void add_storage_option(CLI::App& command, ShapeStorage& storage) {
   static const std::map<std::string, ShapeStorage> kinds{{"full", ShapeStorage::full},
                                                          {"band", ShapeStorage::band}};
@@ -112,13 +133,13 @@ std::vector<std::size_t> choose_shapes(const LibrarySource& library,
   return chosen;
 }
 
-void add_grains_command(CLI::App& app) {
+void add_grains_command(CLI::App& app, const CommandWords& words) {
   CLI::App* grains = app.add_subcommand(
       "grains",
       "Make shape libraries from meshes, coefficients, solids or statistics; look at them");
   grains->require_subcommand(1);
-  add_grains_sources(*grains);
-  add_grains_legacy(*grains);
+  add_grains_sources(*grains, words);
+  add_grains_legacy(*grains, words);
   add_grains_info(*grains);
   add_grains_export(*grains);
   add_grains_scan(*grains);

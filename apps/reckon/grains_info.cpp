@@ -111,11 +111,64 @@ void print_summary(const Entries& entries) {
   range("roundness", 1, [](const auto& d) { return d.roundness; });
 }
 
-std::string as_json(const std::string& file, const Entries& entries) {
+/// The words of a command as a shell takes them.
+std::string shell_text(const std::vector<std::string>& words) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,:=+@%";
+  std::string text;
+  for (const std::string& word : words) {
+    if (!text.empty()) text += ' ';
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+      text += word;
+      continue;
+    }
+    text += '\'';
+    for (const char c : word) text += c == '\'' ? std::string{"'\\''"} : std::string{c};
+    text += '\'';
+  }
+  return text;
+}
+
+void print_provenance(const Provenance& made) {
+  if (made.program.empty()) return;
+  fmt::print("\nmade by    {}\n", made.program);
+  if (!made.command.empty()) fmt::print("command    {}\n", shell_text(made.command));
+  constexpr std::size_t most_lines = 10;
+  for (std::size_t s = 0; s < std::min(most_lines, made.sources.size()); ++s) {
+    const SourceFile& file = made.sources[s];
+    fmt::print("source     {}, {} bytes, xxh64 {:016x}\n", file.path, file.bytes, file.xxh64);
+  }
+  if (made.sources.size() > most_lines) {
+    fmt::print("           and {} more files (--json lists all)\n",
+               made.sources.size() - most_lines);
+  }
+}
+
+void add_provenance(JsonWriter& json, const Provenance& made) {
+  if (made.program.empty()) return;
+  json.begin_object("made");
+  json.value("program", made.program);
+  json.begin_array("command");
+  for (const std::string& word : made.command) json.value({}, word);
+  json.end();
+  json.begin_array("sources");
+  for (const SourceFile& file : made.sources) {
+    json.begin_object();
+    json.value("file", file.path);
+    json.value("bytes", file.bytes);
+    json.value("xxh64", fmt::format("{:016x}", file.xxh64));
+    json.end();
+  }
+  json.end();
+  json.end();
+}
+
+std::string as_json(const std::string& file, const Entries& entries, const Provenance& made) {
   JsonWriter json;
   json.begin_object();
   json.value("file", file);
   json.value("checksums_good", true);
+  add_provenance(json, made);
   json.begin_array("grains");
   for (const auto& [shape, summary] : entries) {
     const ShapeDescriptors& d = shape.descriptors;
@@ -128,6 +181,7 @@ std::string as_json(const std::string& file, const Entries& entries) {
     json.end();
     json.value("surface_area_m2", d.surface_area);
     json.value("equivalent_diameter_m", d.equivalent_diameter);
+    json.value("sieve_size_m", d.sieve_size);
     json.value("length_m", d.length);
     json.value("width_m", d.width);
     json.value("thickness_m", d.thickness);
@@ -168,12 +222,14 @@ void add_grains_info(CLI::App& grains) {
   command->add_option("--shape", options->names, "Only grains of these names");
   command->add_flag("--json", options->json, "Answer in JSON");
   command->callback([=] {
-    const Entries entries = checked_entries(LibrarySource{options->library}, options->names);
+    const LibrarySource library{options->library};
+    const Entries entries = checked_entries(library, options->names);
     if (options->json) {
-      std::fputs(as_json(options->library, entries).c_str(), stdout);
+      std::fputs(as_json(options->library, entries, library.provenance()).c_str(), stdout);
     } else {
       print_table(entries);
       print_summary(entries);
+      print_provenance(library.provenance());
     }
   });
 }

@@ -13,7 +13,7 @@
 
 namespace reckon::app {
 
-void add_grains_legacy(CLI::App& grains) {
+void add_grains_legacy(CLI::App& grains, const CommandWords& words) {
   struct Options {
     std::string input;
     std::string output;
@@ -37,7 +37,7 @@ void add_grains_legacy(CLI::App& grains) {
       const ShapeLibrary library = load_legacy_folder(
           options->input, parse_length("--voxel", options->voxel),
           options->keep_radius ? LegacyRadius::as_in_file : LegacyRadius::enclosing);
-      save_library(options->output, library);
+      save_library(options->output, library, provenance_of(words, {options->input}));
       fmt::print("{}: {} grains\n", options->output, human_count(library.size()));
     });
   }

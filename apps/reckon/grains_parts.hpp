@@ -8,19 +8,17 @@
 #include <string_view>
 #include <vector>
 
+#include "grains_command.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/shape/shape.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace reckon::app {
 
 // The subcommands of `reckon grains`, one source file each.
-void add_grains_sources(
-    CLI::App& grains);  ///< generate, solid, spheres, from-mesh, from-harmonics, ...
-void add_grains_legacy(CLI::App& grains);  ///< from-legacy, to-legacy
+/// generate, solid, spheres, from-mesh, from-harmonics, ...
+void add_grains_sources(CLI::App& grains, const CommandWords& words);
+/// from-legacy, to-legacy
+void add_grains_legacy(CLI::App& grains, const CommandWords& words);
 void add_grains_info(CLI::App& grains);
 void add_grains_export(CLI::App& grains);
 void add_grains_scan(CLI::App& grains);
@@ -36,6 +34,12 @@ void add_grains_statistics(CLI::App& grains);
                                                 std::size_t count, std::size_t total);
 /// How many metres a unit of length such as "mm" has.
 [[nodiscard]] double parse_length_unit(const std::string& option, const std::string& text);
+
+/// What a library says of how it was made: the words of the command line, without options that do
+/// not change the shapes (where to write, threads, memory, JSON), and these files or folders with
+/// their checksums.
+[[nodiscard]] Provenance provenance_of(const CommandWords& words,
+                                       const std::vector<std::string>& sources);
 
 /// --storage: whole grids or bands.
 void add_storage_option(CLI::App& command, ShapeStorage& storage);

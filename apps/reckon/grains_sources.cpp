@@ -71,14 +71,15 @@ ShapeResolution resolution_of(const MakeOptions& options) {
   return resolution;
 }
 
-void make(const std::vector<ShapeSource>& sources, const MakeOptions& options) {
+void make(const std::vector<ShapeSource>& sources, const MakeOptions& options,
+          const Provenance& provenance) {
   if (options.threads > 0) set_thread_count(options.threads);
   const ShapeResolution resolution = resolution_of(options);
   (void)PendingFile{options.output};  // finds a missing folder before the work, not after it
   double seconds = 0;
   {
     CountDisplay display{"grains"};
-    build_library_file(options.output, sources, resolution,
+    build_library_file(options.output, sources, resolution, provenance,
                        [&](std::size_t done) { display.show(done, sources.size()); });
     seconds = display.seconds();
   }
@@ -89,7 +90,7 @@ void make(const std::vector<ShapeSource>& sources, const MakeOptions& options) {
 
 /// Adds a subcommand that turns files into shapes, each read in a unit of length.
 void add_from_files(
-    CLI::App& grains, const char* name, const char* description, const char* example,
+    CLI::App& grains, const CommandWords& words, const char* name, const char* description, const char* example,
     const std::function<ShapeSource(const std::string& file, double unit)>& source) {
   CLI::App* command = grains.add_subcommand(name, description);
   command->footer(std::string{"Example:\n  "} + example);
@@ -104,11 +105,11 @@ void add_from_files(
     const double metres = parse_length_unit("--unit", *unit);
     std::vector<ShapeSource> sources;
     for (const std::string& file : *files) sources.push_back(source(file, metres));
-    make(sources, *options);
+    make(sources, *options, provenance_of(words, *files));
   });
 }
 
-void add_from_harmonics(CLI::App& grains) {
+void add_from_harmonics(CLI::App& grains, const CommandWords& words) {
   CLI::App* command = grains.add_subcommand(
       "from-harmonics", "Grains from spherical-harmonic coefficients, lines `n m Re Im`");
   command->footer(
@@ -154,7 +155,9 @@ void add_from_harmonics(CLI::App& grains) {
       }
       sources.push_back(harmonics_file_source(file, metres, limit));
     }
-    make(sources, *options);
+    std::vector<std::string> read = own->files;
+    if (!own->table.empty()) read.push_back(own->table);
+    make(sources, *options, provenance_of(words, read));
   });
 }
 
@@ -199,7 +202,7 @@ std::vector<ShapeSource> solid_sources(const SolidOptions& own) {
   return sources;
 }
 
-void add_solid(CLI::App& grains) {
+void add_solid(CLI::App& grains, const CommandWords& words) {
   CLI::App* command =
       grains.add_subcommand("solid", "Grains of simple form; each option may be given repeatedly");
   command->footer("Example:\n  reckon grains solid --sphere 1mm --box 2mm,1.5mm,1mm -o solids.h5");
@@ -226,7 +229,7 @@ void add_solid(CLI::App& grains) {
                    .reason = {},
                    .fix = "Give --sphere 1mm, for one."}};
     }
-    make(sources, *options);
+    make(sources, *options, provenance_of(words, {}));
   });
 }
 
@@ -257,7 +260,7 @@ GrainStatistics statistics_of(const std::string& library, std::uint64_t seed) {
   return s;
 }
 
-void add_generate(CLI::App& grains) {
+void add_generate(CLI::App& grains, const CommandWords& words) {
   CLI::App* command =
       grains.add_subcommand("generate", "Random sand-like grains with given statistics");
   command->footer("Example:\n  reckon grains generate --count 40 --seed 7 --d50 0.3mm -o sand.h5");
@@ -316,11 +319,13 @@ void add_generate(CLI::App& grains) {
     for (std::uint32_t n = 0; n < own->count; ++n) {
       sources.push_back(generated_source(statistics, own->seed, n));
     }
-    make(sources, *options);
+    std::vector<std::string> read;
+    if (!own->like.empty()) read.push_back(own->like);
+    make(sources, *options, provenance_of(words, read));
   });
 }
 
-void add_spheres(CLI::App& grains) {
+void add_spheres(CLI::App& grains, const CommandWords& words) {
   CLI::App* command = grains.add_subcommand(
       "spheres", "The equivalent spheres of a library: one per grain, of the same name and volume");
   command->footer(
@@ -337,22 +342,22 @@ void add_spheres(CLI::App& grains) {
       const ShapeSummary shape = grains_of.summary(n);
       sources.push_back(equal_sphere_source(shape.name, shape.outline.mass.volume));
     }
-    make(sources, *options);
+    make(sources, *options, provenance_of(words, {*library}));
   });
 }
 
 }  // namespace
 
-void add_grains_sources(CLI::App& grains) {
-  add_generate(grains);
-  add_solid(grains);
-  add_spheres(grains);
-  add_from_files(grains, "from-mesh", "Grains from closed surfaces: STL, OBJ or PLY files",
+void add_grains_sources(CLI::App& grains, const CommandWords& words) {
+  add_generate(grains, words);
+  add_solid(grains, words);
+  add_spheres(grains, words);
+  add_from_files(grains, words, "from-mesh", "Grains from closed surfaces: STL, OBJ or PLY files",
                  "reckon grains from-mesh scans/*.stl --unit mm -o scans.h5",
                  [](const std::string& file, double unit) { return mesh_file_source(file, unit); });
-  add_from_harmonics(grains);
+  add_from_harmonics(grains, words);
   add_from_files(
-      grains, "from-grid", "Grains from signed-distance grids in LAMMPS-style text",
+      grains, words, "from-grid", "Grains from signed-distance grids in LAMMPS-style text",
       "reckon grains from-grid clay.txt --unit um -o clay.h5",
       [](const std::string& file, double unit) { return level_set_file_source(file, unit); });
 }

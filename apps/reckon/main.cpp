@@ -116,7 +116,9 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
   use_help_format(app);
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
-  add_grains_command(app);
+  CommandWords words{argv, argv + argc};
+  if (!words.empty()) words.front() = "reckon";
+  add_grains_command(app, words);
   add_check_command(app);
   add_run_command(app, ranks, started_by_launcher());
   add_diff_command(app);

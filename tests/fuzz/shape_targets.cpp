@@ -30,7 +30,8 @@ Target shape_library_target() {
           .valid_inputs =
               [folder] {
                 const std::filesystem::path file = folder->path() / "valid.h5";
-                save_library(file, {small_ball("one"), small_ball("two")});
+                save_library(file, {small_ball("one"), small_ball("two")},
+                             {{}, {"reckon", "grains"}, {{"ball.stl", 84, 7}}});
                 std::vector<std::string> files{read_file(file)};
                 Shape band = small_ball("band");
                 round_to_band(band);

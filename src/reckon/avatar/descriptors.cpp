@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "reckon/avatar/sieve_size.hpp"
 #include "reckon/math/portable.hpp"
 
 namespace reckon {
@@ -134,10 +135,16 @@ double inscribed_radius(const TriangleBvh& bvh, const LevelSetView& grid) {
   return std::max(deepest, 0.0);
 }
 
+double corner_weight(double radius_over_inscribed) {
+  constexpr double full = 0.75;
+  constexpr double none = 0.95;
+  return std::clamp((none - radius_over_inscribed) / (none - full), 0.0, 1.0);
+}
+
 double wadell_roundness(const OrientedPoints& samples, double inscribed, double reach) {
   const CellLists lists{samples.position, reach};
-  double radius_sum = 0;
-  std::size_t corners = 0;
+  double ratio_sum = 0;  // of radii over the inscribed one
+  double weight_sum = 0;
   std::vector<Vec3> around;
   for (std::size_t s = 0; s < samples.size(); ++s) {
     around.clear();
@@ -150,10 +157,12 @@ double wadell_roundness(const OrientedPoints& samples, double inscribed, double 
     if (around.size() < fewest_for_fit) continue;
     const auto curvature = fitted_curvature(around, samples.position[s], normalized(normal), reach);
     if (!curvature || !(*curvature * inscribed > 1)) continue;
-    radius_sum += 1 / *curvature;
-    ++corners;
+    const double ratio = 1 / (*curvature * inscribed);
+    const double weight = corner_weight(ratio);
+    ratio_sum += weight * ratio;
+    weight_sum += weight;
   }
-  return corners == 0 ? 1.0 : radius_sum / static_cast<double>(corners) / inscribed;
+  return weight_sum == 0 ? 1.0 : ratio_sum / weight_sum;
 }
 
 ShapeDescriptors describe_shape(const TriangleMesh& body_mesh, const TriangleBvh& bvh,
@@ -167,6 +176,7 @@ ShapeDescriptors describe_shape(const TriangleMesh& body_mesh, const TriangleBvh
   d.thickness = lengths[2];
   d.surface_area = solid.surface_area;
   d.equivalent_diameter = portable::cbrt(6 * solid.volume / std::numbers::pi);
+  d.sieve_size = sieve_size(body_mesh.vertices);
   d.elongation = d.width / d.length;
   d.flatness = d.thickness / d.width;
   d.sphericity = std::numbers::pi * d.equivalent_diameter * d.equivalent_diameter / d.surface_area;

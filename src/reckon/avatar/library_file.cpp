@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <span>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "reckon/avatar/legacy_morphology.hpp"
+#include "reckon/core/build_info.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/exact_sum.hpp"
 #include "reckon/core/file.hpp"
@@ -23,7 +25,8 @@
 namespace reckon {
 namespace {
 
-const Hdf5Kind library_kind{"shape library", 3};  // 2 added sphere_radius, 3 bands
+// 2 added sphere_radius, 3 bands, 4 provenance and sieve_size
+const Hdf5Kind library_kind{"shape library", 4};
 
 /// The scalar fields of a shape, each a dataset of one row per shape.
 struct ScalarField {
@@ -59,8 +62,14 @@ constexpr std::array scalar_fields{
 };
 
 constexpr const char* sphere_radius_field = "/shape/sphere_radius";
+constexpr const char* sieve_size_field = "/descriptor/sieve_size";
 constexpr const char* values_field = "/grid/values";
 constexpr const char* band_field = "/grid/band";
+constexpr const char* program_field = "/provenance/program";
+constexpr const char* command_field = "/provenance/command";
+constexpr const char* source_field = "/provenance/source";
+constexpr const char* source_bytes_field = "/provenance/source_bytes";
+constexpr const char* source_hash_field = "/provenance/source_xxh64";
 
 struct VectorField {
   const char* name;
@@ -123,6 +132,44 @@ void check_names(const std::filesystem::path& path, const ShapeLibrary& library)
   for (const Shape& shape : library) add_name(path, shape.name, names);
 }
 
+std::string this_program() {
+  const BuildInfo build = build_info();
+  return fmt::format("reckon {} ({})", build.version, build.revision);
+}
+
+void write_provenance(Hdf5Writer& file, const Provenance& made) {
+  file.write_texts(program_field, {this_program()});
+  file.write_texts(command_field, made.command);
+  std::vector<std::string> paths;
+  std::vector<std::uint64_t> bytes;
+  std::vector<std::uint64_t> hashes;
+  for (const SourceFile& source : made.sources) {
+    paths.push_back(source.path);
+    bytes.push_back(source.bytes);
+    hashes.push_back(source.xxh64);
+  }
+  file.write_texts(source_field, paths);
+  file.write(source_bytes_field, bytes, {bytes.size()}, "byte");
+  file.write(source_hash_field, hashes, {hashes.size()}, "1");
+}
+
+Provenance read_provenance(const Hdf5Reader& file) {
+  const auto rows = [&](const char* name) {
+    const Hdf5Extents extents = file.extents(name);
+    if (extents.size() != 1) damaged(file.path(), fmt::format("{} is not a list", name));
+    return extents[0];
+  };
+  Provenance made;
+  made.program = file.read_texts(program_field, 1).front();
+  made.command = file.read_texts(command_field, rows(command_field));
+  const std::uint64_t count = rows(source_field);
+  const auto paths = file.read_texts(source_field, count);
+  const auto bytes = file.read<std::uint64_t>(source_bytes_field, {count});
+  const auto hashes = file.read<std::uint64_t>(source_hash_field, {count});
+  for (std::size_t s = 0; s < count; ++s) made.sources.push_back({paths[s], bytes[s], hashes[s]});
+  return made;
+}
+
 /// Reads a library's table at once and its shapes one by one.
 class LibraryReader {
  public:
@@ -146,6 +193,18 @@ class LibraryReader {
       const auto radii = file_.read<double>(sphere_radius_field, {count});
       for (std::size_t s = 0; s < count; ++s) table_[s].sphere_radius = radii[s];
     }
+    if (file_.version() >= 4) {
+      const auto sizes = file_.read<double>(sieve_size_field, {count});
+      for (std::size_t s = 0; s < count; ++s) table_[s].descriptors.sieve_size = sizes[s];
+      provenance_ = read_provenance(file_);
+    } else {
+      // That of the ellipse of width and thickness, which passes turned by 45 degrees.
+      for (Shape& row : table_) {
+        const auto& [width, thickness] =
+            std::pair{row.descriptors.width, row.descriptors.thickness};
+        row.descriptors.sieve_size = std::sqrt(0.5 * (width * width + thickness * thickness));
+      }
+    }
     for (const VectorField& field : vector_fields) {
       const auto values = file_.read<double>(field.name, {count, 3});
       for (std::size_t s = 0; s < count; ++s) {
@@ -164,6 +223,7 @@ class LibraryReader {
   }
 
   [[nodiscard]] std::size_t size() const { return table_.size(); }
+  [[nodiscard]] const Provenance& provenance() const { return provenance_; }
   /// All shapes without their arrays.
   [[nodiscard]] const ShapeLibrary& table() const { return table_; }
 
@@ -244,6 +304,7 @@ class LibraryReader {
 
   Hdf5Reader file_;
   ShapeLibrary table_;  // all but grids and nodes
+  Provenance provenance_;
   std::vector<std::uint64_t> digest_;
   std::vector<std::uint64_t> first_value_;
   std::vector<std::uint64_t> first_node_;
@@ -252,8 +313,9 @@ class LibraryReader {
 }  // namespace
 
 struct LibraryWriter::Impl {
-  Impl(const std::filesystem::path& path, ShapeStorage stored_as)
+  Impl(const std::filesystem::path& path, ShapeStorage stored_as, Provenance made)
       : storage{stored_as},
+        provenance{std::move(made)},
         file{path, library_kind},
         arrays{path.string() + ".arrays"},
         spool{arrays.temporary(), O_RDWR | O_CREAT | O_TRUNC, path} {}
@@ -281,6 +343,7 @@ struct LibraryWriter::Impl {
   void write_nodes();
 
   ShapeStorage storage;
+  Provenance provenance;
   Hdf5Writer file;
   PendingFile arrays;  // all shapes' grids and nodes, one after the other; never committed
   OpenFile spool;
@@ -319,8 +382,9 @@ void LibraryWriter::Impl::write_nodes() {
   }
 }
 
-LibraryWriter::LibraryWriter(const std::filesystem::path& path, ShapeStorage storage)
-    : impl_{std::make_unique<Impl>(path, storage)} {}
+LibraryWriter::LibraryWriter(const std::filesystem::path& path, ShapeStorage storage,
+                             Provenance provenance)
+    : impl_{std::make_unique<Impl>(path, storage, std::move(provenance))} {}
 LibraryWriter::~LibraryWriter() = default;
 
 void LibraryWriter::add(const Shape& shape) {
@@ -366,10 +430,12 @@ void LibraryWriter::finish() {
   std::vector<std::string> names;
   std::vector<std::int32_t> dims;
   std::vector<double> radii;
+  std::vector<double> sieve_sizes;
   for (const Shape& shape : own.table) {
     names.push_back(shape.name);
     dims.insert(dims.end(), shape.level_set.dims.begin(), shape.level_set.dims.end());
     radii.push_back(shape.sphere_radius);
+    sieve_sizes.push_back(shape.descriptors.sieve_size);
   }
   file.write_texts("/shape/name", names);
   file.write("/shape/dims", dims, {count, 3}, "1");
@@ -380,6 +446,7 @@ void LibraryWriter::finish() {
     file.write(field.name, values, {count}, field.unit);
   }
   file.write(sphere_radius_field, radii, {count}, "m");
+  file.write(sieve_size_field, sieve_sizes, {count}, "m");
   for (const VectorField& field : vector_fields) {
     std::vector<double> values;
     for (Shape& shape : own.table) {
@@ -397,11 +464,14 @@ void LibraryWriter::finish() {
     own.write_grids<float>(values_field, "m");
     own.write_nodes<double>();
   }
+  write_provenance(file, own.provenance);
   file.finish();
 }
 
-void save_library(const std::filesystem::path& path, const ShapeLibrary& library) {
-  LibraryWriter writer{path, library.empty() ? ShapeStorage::full : library.front().storage};
+void save_library(const std::filesystem::path& path, const ShapeLibrary& library,
+                  Provenance provenance) {
+  LibraryWriter writer{path, library.empty() ? ShapeStorage::full : library.front().storage,
+                       std::move(provenance)};
   for (const Shape& shape : library) writer.add(shape);
   writer.finish();
 }
@@ -439,6 +509,10 @@ LibrarySource& LibrarySource::operator=(LibrarySource&&) noexcept = default;
 
 std::size_t LibrarySource::size() const {
   return impl_->file ? impl_->file->size() : impl_->folder.size();
+}
+
+Provenance LibrarySource::provenance() const {
+  return impl_->file ? impl_->file->provenance() : Provenance{};
 }
 
 const Shape& LibrarySource::entry(std::size_t shape) const {

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "reckon/avatar/provenance.hpp"
 #include "reckon/core/id.hpp"
 #include "reckon/shape/shape.hpp"
 
@@ -38,11 +39,13 @@ void check_outline(const ShapeOutline& outline, std::uint64_t values, const std:
 ///   /grid/values     signed distances; shape s has first_value[s] ... first_value[s+1] - 1
 ///   /grid/band       or, where the shapes are stored as bands, the words of those
 ///   /node/{x, y, z, area}           likewise with first_node; of bands in single precision
+///   /provenance/{program, command, source, ...}    how the library was made (provenance.hpp)
 ///
 /// Every dataset has a `unit`. Clusters are not stored: they follow from the nodes.
 class LibraryWriter {
  public:
-  LibraryWriter(const std::filesystem::path& path, ShapeStorage storage);
+  LibraryWriter(const std::filesystem::path& path, ShapeStorage storage,
+                Provenance provenance = {});
   ~LibraryWriter();
   LibraryWriter(const LibraryWriter&) = delete;
   LibraryWriter& operator=(const LibraryWriter&) = delete;
@@ -59,7 +62,8 @@ class LibraryWriter {
 };
 
 /// Writes shapes that are all in memory, stored as the first of them is.
-void save_library(const std::filesystem::path& path, const ShapeLibrary& library);
+void save_library(const std::filesystem::path& path, const ShapeLibrary& library,
+                  Provenance provenance = {});
 
 /// All shapes of a library file, or of a folder of legacy morphology files (morph_1.dat,
 /// morph_2.dat, ... in numeric order; see legacy_morphology.hpp), in which a voxel is taken as
@@ -85,6 +89,8 @@ class LibrarySource {
   LibrarySource& operator=(LibrarySource&&) noexcept;
 
   [[nodiscard]] std::size_t size() const;
+  /// Empty for a folder, and for a file of a version before 4.
+  [[nodiscard]] Provenance provenance() const;
   /// A shape without its grid and nodes.
   [[nodiscard]] const Shape& entry(std::size_t shape) const;
   [[nodiscard]] ShapeSummary summary(std::size_t shape) const;

@@ -197,10 +197,10 @@ ShapeLibrary build_library(std::span<const ShapeSource> sources, const ShapeReso
 }
 
 void build_library_file(const std::filesystem::path& path, std::span<const ShapeSource> sources,
-                        const ShapeResolution& resolution,
+                        const ShapeResolution& resolution, const Provenance& provenance,
                         const std::function<void(std::size_t done)>& on_progress) {
   require_distinct_names(sources);
-  LibraryWriter writer{path, resolution.storage};
+  LibraryWriter writer{path, resolution.storage, provenance};
   const std::size_t at_a_time = 32 * static_cast<std::size_t>(thread_count());
   for (std::size_t first = 0; first < sources.size(); first += at_a_time) {
     const auto some = sources.subspan(first, std::min(at_a_time, sources.size() - first));

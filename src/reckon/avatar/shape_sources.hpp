@@ -14,6 +14,7 @@
 
 #include "reckon/avatar/analytic.hpp"
 #include "reckon/avatar/generator.hpp"
+#include "reckon/avatar/provenance.hpp"
 #include "reckon/avatar/shape_builder.hpp"
 
 namespace reckon {
@@ -67,7 +68,7 @@ struct ShapeSource {
 /// Builds all shapes and writes them to a library file, some at a time, so that the library need
 /// not fit into memory. Throws and tells as build_library.
 void build_library_file(const std::filesystem::path& path, std::span<const ShapeSource> sources,
-                        const ShapeResolution& resolution,
+                        const ShapeResolution& resolution, const Provenance& provenance = {},
                         const std::function<void(std::size_t done)>& on_progress = {});
 
 }  // namespace reckon

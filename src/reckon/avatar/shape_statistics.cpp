@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array measures{
     ShapeMeasure{"diameter_m", [](const Shape& s) { return s.descriptors.equivalent_diameter; }},
-    ShapeMeasure{"sieve_size_m", [](const Shape& s) { return sieve_size(s); }},
+    ShapeMeasure{"sieve_size_m", [](const Shape& s) { return s.descriptors.sieve_size; }},
     ShapeMeasure{"length_m", [](const Shape& s) { return s.descriptors.length; }},
     ShapeMeasure{"width_m", [](const Shape& s) { return s.descriptors.width; }},
     ShapeMeasure{"thickness_m", [](const Shape& s) { return s.descriptors.thickness; }},
@@ -50,11 +50,6 @@ Spread bounded_spread(const MeasureSpread& measured, double low, double high) {
 }  // namespace
 
 std::span<const ShapeMeasure> shape_measures() { return measures; }
-
-double sieve_size(const Shape& shape) {
-  const ShapeDescriptors& d = shape.descriptors;
-  return std::sqrt(0.5 * (d.width * d.width + d.thickness * d.thickness));
-}
 
 MeasureSpread spread_of(std::vector<double> values) {
   MeasureSpread spread;

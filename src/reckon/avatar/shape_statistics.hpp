@@ -24,10 +24,6 @@ struct ShapeMeasure {
 /// flatness, sphericity, convexity, roundness (ShapeDescriptors).
 [[nodiscard]] std::span<const ShapeMeasure> shape_measures();
 
-/// The side of the least square hole that the grain passes, if its cross-section is taken as the
-/// ellipse of its width W and thickness T: that passes turned by 45 degrees, sqrt((W^2 + T^2) / 2).
-[[nodiscard]] double sieve_size(const Shape& shape);
-
 /// How a measure is spread over grains that count alike.
 struct MeasureSpread {
   double mean{0};

@@ -47,13 +47,15 @@ struct ShapeDescriptors {
   double thickness{0};            ///< [m]
   double surface_area{0};         ///< [m^2]
   double equivalent_diameter{0};  ///< of the sphere of equal volume [m]
+  double sieve_size{0};           ///< side of the least square hole that the grain passes [m]
   double elongation{0};           ///< width / length (Zingg 1935)
   double flatness{0};             ///< thickness / width (Zingg 1935)
   double sphericity{0};  ///< area of the sphere of equal volume / surface area (Wadell 1932)
   double convexity{0};   ///< volume / volume of the convex hull
   /// Mean corner radius / largest inscribed radius (Wadell 1932), in three dimensions: corners are
   /// where the sharper principal radius of curvature, seen over a tenth of the equivalent diameter,
-  /// is below the inscribed radius; 1 without corners.
+  /// is below the inscribed radius. They count fully below three quarters of it, and less and less
+  /// up to 0.95 of it; 1 without corners.
   double roundness{0};
 };
 

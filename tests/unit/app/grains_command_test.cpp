@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "grains_command.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@
 #include "reckon/avatar/surface_files.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/core/xxhash64.hpp"
 #include "reckon/scan/image_filters.hpp"
 
 namespace reckon::app {
@@ -37,7 +39,9 @@ class GrainsCommand : public ::testing::Test {
   /// Runs `reckon grains ARGUMENTS` and returns what it prints.
   static std::string grains(std::vector<std::string> arguments) {
     CLI::App app{"reckon"};
-    add_grains_command(app);
+    CommandWords words{"reckon", "grains"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    add_grains_command(app, words);
     std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
     arguments.emplace_back("grains");
     ::testing::internal::CaptureStdout();
@@ -110,6 +114,43 @@ TEST_F(GrainsCommand, MeshesTakeTheirNameAndUnit) {
   EXPECT_EQ(shape.name, "pebble");
   EXPECT_EQ(shape.level_set.spacing, 0.4e-3);
   EXPECT_NEAR(shape.descriptors.length, 6e-3, 0.1e-3);
+}
+
+TEST_F(GrainsCommand, LibrariesRecordTheirCommandAndTheirSources) {
+  write_stl(path("a pebble.stl"), ellipsoid_mesh({3, 2, 2}, 0.4), "pebble");
+  const auto make = [&](const std::string& output, std::vector<std::string> more) {
+    more.insert(more.begin(), {"from-mesh", path("a pebble.stl"), "--unit", "mm", "--voxel",
+                               "0.4mm", "-o", path(output)});
+    grains(more);
+    return LibrarySource{path(output)}.provenance();
+  };
+  const Provenance made = make("one.h5", {});
+  const std::vector<std::string> words{"reckon", "grains", "from-mesh", path("a pebble.stl"),
+                                       "--unit", "mm",     "--voxel",   "0.4mm"};
+  EXPECT_EQ(made.command, words);
+  EXPECT_TRUE(made.program.starts_with("reckon 0.")) << made.program;
+  const std::string bytes = read_file(path("a pebble.stl"));
+  XxHash64 hash;
+  hash.update(bytes);
+  ASSERT_EQ(made.sources.size(), 1U);
+  EXPECT_EQ(made.sources[0].path, path("a pebble.stl"));
+  EXPECT_EQ(made.sources[0].bytes, bytes.size());
+  EXPECT_EQ(made.sources[0].xxh64, hash.digest());
+  // Neither the library's own name nor the threads change a byte of it.
+  (void)make("two.h5", {"--threads", "1"});
+  EXPECT_TRUE(read_file(path("one.h5")) == read_file(path("two.h5")));
+
+  const std::string info = grains({"info", path("one.h5")});
+  expect_holds(info, "made by    " + made.program);
+  expect_holds(info, "command    reckon grains from-mesh '" + path("a pebble.stl") + "' --unit mm");
+  expect_holds(info, fmt::format("{} bytes, xxh64 {:016x}", bytes.size(), hash.digest()));
+  expect_holds(grains({"info", path("one.h5"), "--json"}),
+               fmt::format("\"xxh64\": \"{:016x}\"", hash.digest()));
+
+  grains({"spheres", path("one.h5"), "-o", path("balls.h5")});
+  const Provenance balls = LibrarySource{path("balls.h5")}.provenance();
+  ASSERT_EQ(balls.sources.size(), 1U);
+  EXPECT_EQ(balls.sources[0].bytes, std::filesystem::file_size(path("one.h5")));
 }
 
 TEST_F(GrainsCommand, HarmonicsAreCutOffByOptionOrTable) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "grids.hpp"
+#include "reckon/avatar/analytic.hpp"
 #include "reckon/avatar/geodesic_sphere.hpp"
 #include "reckon/avatar/shape_builder.hpp"
 #include "reckon/core/random.hpp"
@@ -105,12 +106,26 @@ TEST(ShapeDescriptors, RoundnessOfAProlateEllipsoidMatchesItsCurvature) {
     const double t = std::numbers::pi * (n + 0.5) / steps;
     const double s = std::sqrt(std::cos(t) * std::cos(t) + a * a * std::sin(t) * std::sin(t));
     const double sharper = std::min(s * s * s / a, s / a);
-    const double element = std::sin(t) * s;
-    if (sharper >= 1) continue;
+    const double element = std::sin(t) * s * corner_weight(sharper);
     weighted += sharper * element;
     weight += element;
   }
   EXPECT_NEAR(d.roundness, weighted / weight, 0.05);
+}
+
+// A cylinder's side has the radius r; the inscribed radius reaches it at a length of 2 r. The side
+// is no corner on either side of that length.
+TEST(ShapeDescriptors, RoundnessOfACylinderDoesNotJump) {
+  double last = 0;
+  for (const double half_length : {0.9, 0.95, 0.975, 1.0, 1.025, 1.05, 1.2}) {
+    const double roundness =
+        describe(to_principal_frame(cylinder_mesh(1, half_length, 0.05))).roundness;
+    EXPECT_LT(roundness, 0.4) << "its edges are sharp";
+    if (last > 0) {
+      EXPECT_NEAR(roundness, last, 0.03) << half_length;
+    }
+    last = roundness;
+  }
 }
 
 TEST(InscribedRadius, IsFoundOffTheGridAndOffTheCentre) {

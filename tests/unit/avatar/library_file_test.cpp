@@ -81,6 +81,33 @@ TEST_F(LibraryFile, EveryBitComesBack) {
   test::expect_error([&] { (void)find_shape(loaded, "spoon"); }, {"spoon", "3 shapes"});
 }
 
+TEST_F(LibraryFile, ProvenanceComesBack) {
+  const std::vector<std::string> command{"reckon",  "grains", "from-mesh",
+                                         "a b.stl", "--unit", "mm"};
+  save_library(file_, example(), {"", command, {{"a b.stl", 684, 0xfedcba9876543210}}});
+  const Provenance made = LibrarySource{file_}.provenance();
+  EXPECT_TRUE(made.program.starts_with("reckon ")) << made.program;
+  EXPECT_EQ(made.command, command);
+  ASSERT_EQ(made.sources.size(), 1U);
+  EXPECT_EQ(made.sources[0].path, "a b.stl");
+  EXPECT_EQ(made.sources[0].bytes, 684U);
+  EXPECT_EQ(made.sources[0].xxh64, 0xfedcba9876543210);
+  save_library(file_, example());
+  EXPECT_TRUE(LibrarySource{file_}.provenance().command.empty());
+}
+
+TEST_F(LibraryFile, SourcesAreHashedOneByOneOrByTheFolder) {
+  write_file(folder_ / "abc.txt", "abc");
+  write_file(folder_ / "none.txt", "");
+  const auto files = source_files(folder_);
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0].path, (folder_ / "abc.txt").string());
+  EXPECT_EQ(files[0].bytes, 3U);
+  EXPECT_EQ(files[0].xxh64, 0x44bc2cf5ad770999) << "as xxhsum -H1 prints it";
+  EXPECT_EQ(files[1].xxh64, 0xef46db3751d8e999);
+  test::expect_error([&] { (void)source_files(folder_ / "missing"); }, {"missing", "read"});
+}
+
 TEST_F(LibraryFile, SomeShapesCanBeLoadedAlone) {
   save_library(file_, example());
   const std::vector<ShapeId> wanted{ShapeId{2}, ShapeId{0}, ShapeId{2}};

@@ -9,7 +9,9 @@
 
 #include "expect_error.hpp"
 #include "reckon/avatar/analytic.hpp"
+#include "reckon/avatar/mesh_mass.hpp"
 #include "reckon/avatar/shape_sources.hpp"
+#include "reckon/avatar/sieve_size.hpp"
 
 namespace reckon {
 namespace {
@@ -28,13 +30,26 @@ TEST(ShapeStatistics, SpreadOfKnownNumbers) {
   EXPECT_EQ(spread_of(std::vector<double>{1, 2}).median, 1.5);
 }
 
-TEST(ShapeStatistics, ABallPassesAHoleOfItsDiameter) {
-  const Shape ball = build_shape(sphere_mesh(1, 0.1), {.node_count = 50}, "ball");
-  EXPECT_NEAR(sieve_size(ball), 2, 0.01);
-  Shape plate = ball;
-  plate.descriptors.width = 3;
-  plate.descriptors.thickness = 1;
-  EXPECT_NEAR(sieve_size(plate), std::sqrt(5.0), 1e-12);
+// Closed forms of the least square hole. A rectangle W x T fits upright into a square of W, turned
+// by 45 degrees into one of (W + T) / sqrt 2; an ellipse turned into one of sqrt((W^2 + T^2) / 2).
+TEST(ShapeStatistics, SieveSizeIsTheLeastSquareHole) {
+  const auto size = [](TriangleMesh mesh) {
+    return sieve_size(to_principal_frame(std::move(mesh)).vertices);
+  };
+  const auto box = [&](double a, double b, double c) {
+    return size(box_mesh({a / 2, b / 2, c / 2}, 10));
+  };
+  EXPECT_NEAR(box(4, 2, 1), 2, 1e-9);
+  EXPECT_NEAR(box(1, 4, 2), 2, 1e-9) << "in any order";
+  EXPECT_NEAR(box(4, 2, 0.5), 2.5 / std::sqrt(2.0), 1e-3);
+  EXPECT_NEAR(box(1, 1, 1), 1, 1e-9);
+  EXPECT_NEAR(size(sphere_mesh(1, 0.1)), 2, 0.01);
+  EXPECT_NEAR(size(ellipsoid_mesh({3, 2, 1}, 0.1)), std::sqrt(2 * (4 + 1.0)), 0.02);
+  EXPECT_NEAR(size(cylinder_mesh(1, 3, 0.2)), 2, 0.01);
+  // A thin disc of radius 1 falls through on edge: its shadow is 2 x 0.1.
+  EXPECT_NEAR(size(cylinder_mesh(1, 0.05, 0.1)), 2.1 / std::sqrt(2.0), 0.01);
+  const Shape shape = build_shape(box_mesh({2, 1, 0.5}, 0.5), {.node_count = 50}, "box");
+  EXPECT_NEAR(shape.descriptors.sieve_size, 2, 1e-9);
 }
 
 ShapeLibrary population(const GrainStatistics& statistics, std::uint64_t seed,
