@@ -23,12 +23,13 @@ namespace reckon {
 /// Stored normals are ignored; the order of the vertices says which side is out.
 [[nodiscard]] TriangleMesh parse_stl(std::string_view bytes, const std::string& name);
 
-/// Reads v and f lines; polygons become fans of triangles, negative indices count back from the
-/// last vertex. Texture, normals, groups, materials, lines and points are skipped.
+/// Reads v and f lines, which a backslash at the end of a line continues; polygons become triangles
+/// (polygon_mesh.hpp), negative indices count back from the last vertex. Texture, normals, groups,
+/// materials, lines and points are skipped.
 [[nodiscard]] TriangleMesh parse_obj(std::string_view bytes, const std::string& name);
 
 /// ASCII and binary of either byte order, with any elements and properties beside the vertices'
-/// x, y, z and the faces' vertex_indices; polygons become fans of triangles.
+/// x, y, z and the faces' vertex_indices; polygons become triangles (polygon_mesh.hpp).
 [[nodiscard]] TriangleMesh parse_ply(std::string_view bytes, const std::string& name);
 
 /// Merges vertices with equal coordinates, which STL repeats for every triangle and other formats

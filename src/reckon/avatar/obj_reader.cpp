@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/avatar/mesh_reader.hpp"
+#include "reckon/avatar/polygon_mesh.hpp"
 #include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
 
@@ -14,21 +16,21 @@ namespace {
 
 constexpr const char* correct_face = "Correct the face, or write the file again.";
 
-/// Walks through an OBJ file and gathers its polygons as fans.
+/// Walks through an OBJ file and gathers its polygons.
 class ObjParser {
  public:
   ObjParser(std::string_view text, const std::string& name) : reader_{text, name}, name_{name} {}
 
   TriangleMesh parse() {
     while (reader_.next_line()) {
-      const std::string_view word = reader_.next_token();
+      const std::string_view word = next_token();
       if (word == "v") {
         add_vertex();
       } else if (word == "f" || word == "fo") {  // fo: an old spelling of f
         add_face();
       }
     }
-    if (mesh_.triangles.empty()) {
+    if (mesh_.faces() == 0) {
       throw Error{{.place = name_,
                    .problem = "holds no faces",
                    .reason = "no line begins with 'f'",
@@ -41,23 +43,40 @@ class ObjParser {
                    .reason = "the file has " + std::to_string(mesh_.vertices.size()) + " vertices",
                    .fix = correct_face}};
     }
-    return welded(mesh_);
+    return welded(triangulated(std::move(mesh_), [&](std::size_t face) {
+      return name_ + ", line " + std::to_string(face_line_[face]);
+    }));
   }
 
  private:
+  /// The next token of this line and of those that go on from it: a backslash at the end of a line
+  /// joins the next one to it.
+  std::string_view next_token() {
+    for (;;) {
+      if (joins_next_line_ && !reader_.next_line()) return {};
+      joins_next_line_ = false;
+      std::string_view token = reader_.next_token();
+      if (!token.ends_with('\\') || !reader_.rest_of_line_is_blank()) return token;
+      joins_next_line_ = true;
+      token.remove_suffix(1);
+      if (!token.empty()) return token;
+    }
+  }
+  double next_double(const char* what) { return reader_.to_double(next_token(), what); }
+
   void add_vertex() {
     if (mesh_.vertices.size() == std::numeric_limits<std::uint32_t>::max()) {
       reader_.fail("there are too many vertices", "the limit is 4294967295", "Simplify the mesh.");
     }
-    const double x = reader_.next_double("x coordinate");
-    const double y = reader_.next_double("y coordinate");
-    mesh_.vertices.push_back({x, y, reader_.next_double("z coordinate")});
+    const double x = next_double("x coordinate");
+    const double y = next_double("y coordinate");
+    mesh_.vertices.push_back({x, y, next_double("z coordinate")});
   }
 
   void add_face() {
     std::vector<std::uint32_t> corners;
     for (;;) {
-      const std::string_view token = reader_.next_token();
+      const std::string_view token = next_token();
       if (token.empty() || token.front() == '#') break;
       corners.push_back(vertex_of(token));
     }
@@ -65,9 +84,8 @@ class ObjParser {
       reader_.fail("a face needs at least three corners",
                    "it has " + std::to_string(corners.size()), correct_face);
     }
-    for (std::size_t n = 2; n < corners.size(); ++n) {
-      mesh_.triangles.push_back({corners[0], corners[n - 1], corners[n]});
-    }
+    mesh_.add_face(corners);
+    face_line_.push_back(reader_.line_number());
   }
 
   /// A corner reads v, v/vt, v//vn or v/vt/vn; only v matters here.
@@ -98,7 +116,9 @@ class ObjParser {
 
   TextReader reader_;
   const std::string& name_;
-  TriangleMesh mesh_;
+  PolygonMesh mesh_;
+  std::vector<std::size_t> face_line_;
+  bool joins_next_line_{false};
   std::uint32_t highest_index_{0};
   std::size_t highest_index_line_{0};
 };

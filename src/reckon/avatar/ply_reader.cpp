@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reckon/avatar/byte_reader.hpp"
 #include "reckon/avatar/mesh_reader.hpp"
 #include "reckon/avatar/ply_header.hpp"
+#include "reckon/avatar/polygon_mesh.hpp"
 #include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
 
@@ -89,7 +91,7 @@ class Body {
   bool is_text_;
 };
 
-void read_vertices(Body& body, const Element& element, TriangleMesh& mesh) {
+void read_vertices(Body& body, const Element& element, PolygonMesh& mesh) {
   for (std::uint64_t n = 0; n < element.count; ++n) {
     Vec3 vertex;
     for (const Property& property : element.properties) {
@@ -105,7 +107,7 @@ void read_vertices(Body& body, const Element& element, TriangleMesh& mesh) {
   }
 }
 
-void read_faces(Body& body, const Element& element, std::uint64_t vertices, TriangleMesh& mesh) {
+void read_faces(Body& body, const Element& element, std::uint64_t vertices, PolygonMesh& mesh) {
   std::vector<std::uint32_t> corners;
   for (std::uint64_t n = 0; n < element.count; ++n) {
     for (const Property& property : element.properties) {
@@ -128,9 +130,7 @@ void read_faces(Body& body, const Element& element, std::uint64_t vertices, Tria
         }
         corners.push_back(static_cast<std::uint32_t>(index));
       }
-      for (std::size_t c = 2; c < corners.size(); ++c) {
-        mesh.triangles.push_back({corners[0], corners[c - 1], corners[c]});
-      }
+      mesh.add_face(corners);
     }
   }
 }
@@ -142,7 +142,7 @@ TriangleMesh parse_ply(std::string_view bytes, const std::string& name) {
   const ply::Header header = ply::parse_header(reader);
   const std::uint64_t vertices = ply::require_mesh(header, name);
   Body body{reader, bytes, name, header.encoding};
-  TriangleMesh mesh;
+  PolygonMesh mesh;
   for (const Element& element : header.elements) {
     if (element.count == 0) continue;
     body.require_room(element.count, element.least_size(), "element '" + element.name + "'");
@@ -158,13 +158,14 @@ TriangleMesh parse_ply(std::string_view bytes, const std::string& name) {
       }
     }
   }
-  if (mesh.triangles.empty()) {
+  if (mesh.faces() == 0) {
     throw Error{{.place = name,
                  .problem = "holds no faces",
                  .reason = "",
                  .fix = "Export a triangle or polygon mesh."}};
   }
-  return welded(mesh);
+  return welded(triangulated(
+      std::move(mesh), [&](std::size_t face) { return name + ", face " + std::to_string(face); }));
 }
 
 }  // namespace reckon

@@ -107,7 +107,7 @@ bool has_binary_size(std::string_view bytes) {
 }
 
 bool looks_like_text(std::string_view bytes) {
-  const std::string_view start = bytes.substr(0, 1024);
+  const std::string_view start = without_byte_order_mark(bytes).substr(0, 1024);
   const bool has_control_codes = start.find_first_of(std::string_view{
                                      "\0\1\2\3\4\5\6\7\x0e\x0f", 10}) != std::string_view::npos;
   const std::size_t word = start.find_first_not_of(" \t\r\n");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/avatar/text_reader.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -21,6 +22,24 @@ std::string_view without_plus(std::string_view token) {
 }
 
 }  // namespace
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  if (text.starts_with(mark)) text.remove_prefix(mark.size());
+  return text;
+}
+
+TextReader::TextReader(std::string_view text, std::string name)
+    : rest_{without_byte_order_mark(text)}, name_{std::move(name)} {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    fail("is text in UTF-16", "it begins with that encoding's byte-order mark",
+         "Save the file as UTF-8 or plain ASCII.");
+  }
+}
+
+bool TextReader::rest_of_line_is_blank() const {
+  return std::all_of(line_.begin(), line_.end(), is_blank);
+}
 
 bool TextReader::next_line() {
   if (rest_.empty()) {

@@ -15,7 +15,8 @@ namespace reckon {
 /// Does not own the text.
 class TextReader {
  public:
-  TextReader(std::string_view text, std::string name) : rest_{text}, name_{std::move(name)} {}
+  /// Skips the byte-order mark of UTF-8. Throws Error for text in UTF-16, which would fall apart.
+  TextReader(std::string_view text, std::string name);
 
   /// Goes to the next line. False at the end of the text.
   bool next_line();
@@ -40,6 +41,7 @@ class TextReader {
   /// What follows the current line, and what is left of it.
   [[nodiscard]] std::string_view remaining_text() const { return rest_; }
   [[nodiscard]] std::string_view remaining_line() const { return line_; }
+  [[nodiscard]] bool rest_of_line_is_blank() const;
   [[nodiscard]] std::size_t line_number() const { return line_number_; }
 
  private:
@@ -48,6 +50,9 @@ class TextReader {
   std::string name_;
   std::size_t line_number_{0};
 };
+
+/// The text behind the byte-order mark of UTF-8, which some programs put in front of every file.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 
 /// A piece of an input for an error text: cut short, control characters replaced.
 [[nodiscard]] std::string in_quotes(std::string_view text);

@@ -2,16 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/avatar/mesh_reader.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "expect_error.hpp"
 #include "mesh_writers.hpp"
 #include "reckon/avatar/half_edges.hpp"
 #include "reckon/avatar/mesh_mass.hpp"
+#include "reckon/avatar/mesh_validation.hpp"
 #include "reckon/core/random.hpp"
 #include "test_meshes.hpp"
 
@@ -109,6 +115,106 @@ TEST(MeshReader, PolygonsBecomeFans) {
       "property float z\nelement face 5\nproperty list uchar uint vertex_index\nend_header\n"
       "0 0 0 1 0 0 1 1 0\n0 1 0\n0 0 1\n4 3 2 1 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4";
   EXPECT_NEAR(solid_properties(parse_ply(ply, "")).volume, 1.0 / 3, 1e-15);
+}
+
+/// The prism over a polygon in the plane z = 0, as polygons: n corners below, n above.
+std::string prism_obj(const std::vector<std::pair<double, double>>& outline, double height) {
+  std::string text;
+  const std::size_t n = outline.size();
+  for (const double z : {0.0, height}) {
+    for (const auto& [x, y] : outline) text += fmt::format("v {} {} {}\n", x, y, z);
+  }
+  std::string below = "f";
+  std::string above = "f";
+  for (std::size_t c = 0; c < n; ++c) {
+    below += fmt::format(" {}", n - c);
+    above += fmt::format(" {}", n + 1 + c);
+  }
+  text += below + "\n" + above + "\n";
+  for (std::size_t c = 0; c < n; ++c) {
+    const std::size_t d = (c + 1) % n;
+    text += fmt::format("f {} {} {} {}\n", c + 1, d + 1, n + d + 1, n + c + 1);
+  }
+  return text;
+}
+
+double polygon_area(const std::vector<std::pair<double, double>>& outline) {
+  double doubled = 0;
+  for (std::size_t c = 0; c < outline.size(); ++c) {
+    const auto& [x, y] = outline[c];
+    const auto& [u, v] = outline[(c + 1) % outline.size()];
+    doubled += x * v - u * y;
+  }
+  return doubled / 2;
+}
+
+// A fan from the first corner would cover the notch of a concave face, and make a triangle without
+// area of a corner on a straight side.
+TEST(MeshReader, ConcaveAndCollinearFacesAreSplitAlongTheirOutline) {
+  using Outline = std::vector<std::pair<double, double>>;
+  Outline comb;  // teeth, and a corner in the middle of every straight side
+  for (int tooth = 0; tooth < 6; ++tooth) {
+    comb.insert(comb.end(), {{2.0 * tooth, 1}, {2.0 * tooth, 4}, {2.0 * tooth, 7}});
+    comb.insert(comb.end(), {{2.0 * tooth + 0.5, 7}, {2.0 * tooth + 1, 7}, {2.0 * tooth + 1, 1}});
+  }
+  comb.insert(comb.end(), {{11, 0}, {6, 0}, {0, 0}});
+  std::reverse(comb.begin(), comb.end());
+  Outline spiral;
+  for (int n = 0; n <= 40; ++n) {
+    spiral.emplace_back((1 + 0.1 * n) * std::cos(0.3 * n), (1 + 0.1 * n) * std::sin(0.3 * n));
+  }
+  for (int n = 40; n >= 0; --n) {
+    spiral.emplace_back((0.5 + 0.1 * n) * std::cos(0.3 * n), (0.5 + 0.1 * n) * std::sin(0.3 * n));
+  }
+  const std::vector<Outline> outlines{
+      {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
+      {{0, 0}, {0.5, 0}, {1, 0}, {1, 2}, {0, 2}},
+      {{0, 0}, {0.1, 0.1 / 3}, {0.3, 0.1}, {0.2, 2}, {0, 2}},  // straight up to rounding
+      {{0, 0}, {3, 0}, {3, 3}, {1.5, 0.1}, {0, 3}},
+      comb,
+      spiral};
+  for (const Outline& outline : outlines) {
+    for (std::size_t turn = 0; turn < outline.size(); ++turn) {
+      Outline turned = outline;
+      std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(turn), turned.end());
+      if (polygon_area(turned) < 0) std::reverse(turned.begin(), turned.end());
+      for (const double height : {0.7, 30.0}) {
+        const TriangleMesh mesh = parse_obj(prism_obj(turned, height), "prism.obj");
+        EXPECT_EQ(mesh.triangles.size(), 2 * (outline.size() - 2) + 2 * outline.size());
+        ASSERT_NO_THROW(require_closed_surface(mesh, "prism")) << outline.size() << ", " << turn;
+        EXPECT_NEAR(enclosed_volume(mesh) / (height * polygon_area(turned)), 1, 1e-12);
+      }
+    }
+  }
+  expect_error(
+      [] { (void)parse_obj("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1.5 0\nf 1 2 3 4\n", "g.obj"); },
+      {"g.obj, line 5", "crosses or touches itself", "4 corners"});
+  const char* bow =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar uint vertex_index\nend_header\n"
+      "0 0 0 1 1 0 1 0 0 0 1.5 0 4 0 1 2 3";
+  expect_error([&] { (void)parse_ply(bow, "g.ply"); }, {"g.ply, face 0", "crosses"});
+}
+
+TEST(MeshReader, BackslashesContinueLines) {
+  const std::string plain = test::obj(lopsided());
+  std::string broken = "# a \\ in a comment ends nothing\n";
+  for (const char c : plain) broken += c == ' ' ? std::string{" \\\r\n  "} : std::string{c};
+  expect_same(parse_obj(broken, ""), lopsided());
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  EXPECT_EQ(parse_obj(corners + "f 1 2\\\n 3\nf 1 \\\n\\\n4 2\n", "").triangles.size(), 2U);
+  expect_error([&] { (void)parse_obj(corners + "f 1 2 \\", "g.obj"); }, {"line 5", "it has 2"});
+}
+
+TEST(MeshReader, ByteOrderMarksAreSkipped) {
+  const std::string mark = "\xef\xbb\xbf";
+  expect_same(parse_stl(mark + test::ascii_stl(lopsided()), ""), lopsided());
+  expect_same(parse_obj(mark + test::obj(lopsided()), ""), lopsided());
+  expect_same(parse_ply(mark + test::ply(lopsided(), Ply::ascii), ""), lopsided());
+  for (const char* other : {"\xff\xfe", "\xfe\xff"}) {
+    expect_error([&] { (void)parse_obj(other + test::obj(lopsided()), "g.obj"); },
+                 {"g.obj", "UTF-16", "UTF-8"});
+  }
 }
 
 TEST(MeshReader, StlFaultsAreNamed) {
