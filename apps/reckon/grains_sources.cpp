@@ -13,6 +13,7 @@
 
 #include "grains_parts.hpp"
 #include "progress.hpp"
+#include "reckon/avatar/degree_table.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/avatar/shape_sources.hpp"
 #include "reckon/avatar/shape_statistics.hpp"

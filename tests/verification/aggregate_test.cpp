@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "reckon/avatar/degree_table.hpp"
 #include "reckon/avatar/grid_mass.hpp"
 #include "reckon/avatar/shape_sources.hpp"
 #include "reckon/core/file.hpp"

@@ -113,48 +113,6 @@ ShapeSource generated_source(const GrainStatistics& statistics, std::uint64_t se
           }};
 }
 
-std::map<std::string, std::uint32_t> parse_degree_table(std::string_view text,
-                                                        const std::string& name) {
-  TextReader reader{text, name};
-  constexpr std::size_t missing = ~std::size_t{0};
-  std::size_t name_column = missing;
-  std::size_t degree_column = missing;
-  reader.next_line();
-  std::size_t column = 0;
-  for (auto token = reader.next_token(); !token.empty(); token = reader.next_token(), ++column) {
-    if (token == "Name") name_column = column;
-    if (token == "Nnn") degree_column = column;
-  }
-  if (name_column == missing || degree_column == missing) {
-    reader.fail("the header lacks a column", "Name and Nnn are needed",
-                "Put the columns' names into the first line.");
-  }
-  std::map<std::string, std::uint32_t> degrees;
-  while (reader.next_line()) {
-    std::string file;
-    std::optional<std::uint32_t> degree;
-    column = 0;
-    for (auto token = reader.next_token(); !token.empty(); token = reader.next_token(), ++column) {
-      if (column == name_column) file = token;
-      if (column == degree_column) {
-        const std::int64_t value = reader.to_integer(token, "degree");
-        if (value < 0 || value > SphericalHarmonicBasis::highest_degree) {
-          reader.fail(
-              "the degree is out of range", in_quotes(token),
-              fmt::format("It lies between 0 and {}.", SphericalHarmonicBasis::highest_degree));
-        }
-        degree = static_cast<std::uint32_t>(value);
-      }
-    }
-    if (column == 0) continue;
-    if (!degree || file.empty()) {
-      reader.fail("the line is too short", "it has no degree", "Complete the table.");
-    }
-    degrees[file] = *degree;
-  }
-  return degrees;
-}
-
 namespace {
 
 void require_distinct_names(std::span<const ShapeSource> sources) {

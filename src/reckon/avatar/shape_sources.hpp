@@ -5,11 +5,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "reckon/avatar/analytic.hpp"
@@ -50,12 +48,6 @@ struct ShapeSource {
 /// Grain `index` of a generated population.
 [[nodiscard]] ShapeSource generated_source(const GrainStatistics& statistics, std::uint64_t seed,
                                            std::uint64_t index);
-
-/// Reads a table that gives spherical-harmonic files their degrees: a header line with columns
-/// "Name" and "Nnn", then a line per file. Returns degree by file name. Throws Error naming the
-/// line.
-[[nodiscard]] std::map<std::string, std::uint32_t> parse_degree_table(std::string_view text,
-                                                                      const std::string& name);
 
 /// Builds all shapes, in parallel over shapes when there are enough of them, else inside each. The
 /// library does not depend on the number of threads. `on_progress` is called after every shape with

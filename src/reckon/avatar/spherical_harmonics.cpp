@@ -176,7 +176,10 @@ SphericalHarmonicGrain parse_spherical_harmonics(std::string_view text, const st
     fail(name, "has no usable length unit", std::to_string(unit_in_metres) + " m",
          "Give a unit above zero, such as 0.001 for millimetres.");
   }
-  TextReader reader{text, name};
+  std::string plain{text};
+  std::replace_if(
+      plain.begin(), plain.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
+  TextReader reader{plain, name};
   std::vector<Term> terms = parse_terms(reader);
   if (terms.empty()) {
     fail(name, "holds no coefficients", "expected lines 'n m Re Im'", "Check the file.");

@@ -10,6 +10,7 @@
 
 #include "expect_error.hpp"
 #include "grids.hpp"
+#include "reckon/avatar/degree_table.hpp"
 #include "reckon/avatar/geodesic_sphere.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/avatar/mesh_reader.hpp"
@@ -90,6 +91,23 @@ TEST_F(ShapeSources, DegreeTable) {
   test::expect_error([] { (void)parse_degree_table("Name Nnn\na x\n", "table"); }, {"degree"});
   test::expect_error([] { (void)parse_degree_table("Name Nnn\na 9999\n", "table"); },
                      {"out of range"});
+  test::expect_error([] { (void)parse_degree_table("Name Nnn\na 3\na 4\n", "table"); },
+                     {"line 3", "two lines"});
+}
+
+TEST_F(ShapeSources, DegreeTablesTakeCommasAndAByteOrderMark) {
+  const std::map<std::string, std::uint32_t> expected{{"a.dat", 26}, {"b, c.dat", 12}};
+  const auto parsed = [](const std::string& text) { return parse_degree_table(text, "table"); };
+  EXPECT_EQ(parsed("Name,volume,Nnn\na.dat,3.5,26\n\"b, c.dat\", 1 , 12\n"), expected);
+  EXPECT_EQ(parsed("\xef\xbb\xbfName;volume;Nnn\r\na.dat;3,5;26\r\n\r\nb, c.dat;1;12\r\n"),
+            expected);
+  EXPECT_EQ(parsed("\"Name\",\"volume\",\"Nnn\"\na.dat,,26\n\"b, c.dat\",,12"), expected)
+      << "an empty cell moves no column";
+  test::expect_error([&] { (void)parsed("Name,Nnn\na.dat\n"); }, {"line 2", "too short"});
+  test::expect_error([&] { (void)parsed("Name,x,Nnn\na.dat,26\n"); }, {"line 2"});
+  test::expect_error([&] { (void)parsed("Name,Nnn,x\na.dat,3\n"); }, {"2 cells, the header 3"});
+  test::expect_error([&] { (void)parsed("Name,Nnn\na.dat,\n"); }, {"line 2", "degree"});
+  test::expect_error([&] { (void)parsed("Name,Nnn\n\"a.dat,3\n"); }, {"line 2", "double quote"});
 }
 
 TEST_F(ShapeSources, VtpFilesHoldSurfaceAndNodes) {
