@@ -12,8 +12,11 @@
 #include "grains_parts.hpp"
 #include "progress.hpp"
 #include "reckon/avatar/library_file.hpp"
+#include "reckon/avatar/mesh_parts.hpp"
+#include "reckon/avatar/mesh_validation.hpp"
 #include "reckon/avatar/surface_extraction.hpp"
 #include "reckon/avatar/surface_files.hpp"
+#include "reckon/core/error.hpp"
 #include "reckon/io/human.hpp"
 
 namespace reckon::app {
@@ -25,6 +28,25 @@ std::string file_name(const std::string& name) {
   std::replace_if(
       safe.begin(), safe.end(), [](char c) { return c == '/' || c == '\0'; }, '_');
   return safe == "." || safe == ".." ? "_" : safe;
+}
+
+/// Writes the grain's surface as the mesh of one solid. Its grid may hold more: a void or a crumb
+/// where a crevice is too narrow for the voxels. What is left out is printed, and whatever would
+/// make `from-mesh` refuse the file.
+void export_stl(const std::filesystem::path& file, const Shape& shape) {
+  const LargestPart part = largest_part(extract_surface(shape.level_set));
+  write_stl(file, part.mesh, shape.name);
+  if (part.others > 0) {
+    fmt::print(
+        "{}: left out {} with {:.2g} % of the grain's volume\n", file.string(),
+        part.others == 1 ? "a void or crumb" : fmt::format("{} voids or crumbs", part.others),
+        100 * part.others_volume);
+  }
+  try {
+    require_closed_surface(rounded_to_stl(part.mesh), file.string());
+  } catch (const Error& error) {
+    fmt::print(stderr, "reckon: warning: {}\n", error.what());
+  }
 }
 
 }  // namespace
@@ -59,7 +81,7 @@ void add_grains_export(CLI::App& grains) {
       const Shape shape = library.read(s);
       const std::string name = file_name(shape.name);
       if (options->format == "stl") {
-        write_stl(folder / (name + ".stl"), extract_surface(shape.level_set), shape.name);
+        export_stl(folder / (name + ".stl"), shape);
       } else {
         write_surface_vtp(folder / (name + ".vtp"), shape);
         write_nodes_vtp(folder / (name + "_nodes.vtp"), shape);

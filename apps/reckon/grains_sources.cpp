@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "exit_codes.hpp"
 #include "grains_parts.hpp"
 #include "progress.hpp"
 #include "reckon/avatar/degree_table.hpp"
@@ -72,29 +73,95 @@ ShapeResolution resolution_of(const MakeOptions& options) {
   return resolution;
 }
 
+/// Says what is wrong with some of the sources. That of the only one is thrown instead.
+void report_faults(const std::vector<Error>& faults, std::size_t sources,
+                   const std::string& library) {
+  if (sources == 1) throw faults.front();
+  for (const Error& fault : faults) fmt::print(stderr, "reckon: error: {}\n", fault.what());
+  const bool none_left = faults.size() == sources;
+  fmt::print(stderr, "reckon: {} of {} sources are at fault; {}\n", faults.size(), sources,
+             none_left ? library + " is not written" : "the others are in " + library);
+  throw CLI::RuntimeError{input_at_fault};
+}
+
 void make(const std::vector<ShapeSource>& sources, const MakeOptions& options,
           const Provenance& provenance) {
   if (options.threads > 0) set_thread_count(options.threads);
   const ShapeResolution resolution = resolution_of(options);
   (void)PendingFile{options.output};  // finds a missing folder before the work, not after it
   double seconds = 0;
+  std::vector<Error> faults;
   {
     CountDisplay display{"grains"};
-    build_library_file(options.output, sources, resolution, provenance,
-                       [&](std::size_t done) { display.show(done, sources.size()); });
+    faults = build_library_file(options.output, sources, resolution, provenance,
+                                [&](std::size_t done) { display.show(done, sources.size()); });
     seconds = display.seconds();
   }
-  fmt::print("{}: {} {}, {}, {}\n", options.output, human_count(sources.size()),
-             sources.size() == 1 ? "grain" : "grains",
-             human_bytes(std::filesystem::file_size(options.output)), human_duration(seconds));
+  const std::size_t made = sources.size() - faults.size();
+  if (made > 0) {
+    fmt::print("{}: {} {}, {}, {}\n", options.output, human_count(made),
+               made == 1 ? "grain" : "grains",
+               human_bytes(std::filesystem::file_size(options.output)), human_duration(seconds));
+  }
+  if (!faults.empty()) report_faults(faults, sources.size(), options.output);
 }
 
-/// Adds a subcommand that turns files into shapes, each read in a unit of length.
-void add_from_files(
-    CLI::App& grains, const CommandWords& words, const char* name, const char* description, const char* example,
-    const std::function<ShapeSource(const std::string& file, double unit)>& source) {
-  CLI::App* command = grains.add_subcommand(name, description);
-  command->footer(std::string{"Example:\n  "} + example);
+/// --merge takes a length or none.
+void add_mesh_options(CLI::App& command, MeshTreatment& treatment, std::string& merge) {
+  static const std::map<std::string, bool> parts{{"refuse", false}, {"split", true}};
+  command
+      .add_option("--parts", treatment.split,
+                  "Several parts in one file: refuse, or split: each is a grain, NAME_1, NAME_2")
+      ->transform(CLI::CheckedTransformer(parts, CLI::ignore_case))
+      ->default_str("refuse");
+  command
+      .add_option("--merge", merge,
+                  "Join corners along open edges that differ by rounding, or by up to this length")
+      ->type_name("[LENGTH]")
+      ->expected(0, 1);
+  command.add_flag("--repair", treatment.repair,
+                   "Make a scanned surface closed: join corners, remove loose fragments, turn "
+                   "faces outward, close holes; says what it did");
+}
+
+void add_from_mesh(CLI::App& grains, const CommandWords& words) {
+  CLI::App* command =
+      grains.add_subcommand("from-mesh", "Grains from closed surfaces: STL, OBJ or PLY files");
+  command->footer(
+      "Example:\n  reckon grains from-mesh scans/*.stl --unit mm -o scans.h5\n"
+      "  reckon grains from-mesh heap.obj --unit mm --parts split --repair -o heap.h5");
+  struct Options {
+    std::vector<std::string> files;
+    std::string unit;
+    std::string merge;
+    MeshTreatment treatment;
+  };
+  auto own = std::make_shared<Options>();
+  command->add_option("files", own->files, "Files, one grain each; a grain is named after its file")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("--unit", own->unit, "Unit of the numbers in the files, e.g. mm")->required();
+  add_mesh_options(*command, own->treatment, own->merge);
+  const auto options = add_make_options(*command);
+  command->callback([=] {
+    const double metres = parse_length_unit("--unit", own->unit);
+    MeshTreatment treatment = own->treatment;
+    treatment.merge = command->count("--merge") > 0;
+    if (!own->merge.empty()) treatment.merge_distance = parse_length("--merge", own->merge);
+    std::vector<ShapeSource> sources;
+    for (const std::string& file : own->files) {
+      const MeshFileSources made = mesh_file_sources(file, metres, treatment);
+      for (const std::string& note : made.notes) fmt::print("{}: {}\n", file, note);
+      sources.insert(sources.end(), made.sources.begin(), made.sources.end());
+    }
+    make(sources, *options, provenance_of(words, own->files));
+  });
+}
+
+void add_from_grid(CLI::App& grains, const CommandWords& words) {
+  CLI::App* command =
+      grains.add_subcommand("from-grid", "Grains from signed-distance grids in LAMMPS-style text");
+  command->footer("Example:\n  reckon grains from-grid clay.txt --unit um -o clay.h5");
   auto files = std::make_shared<std::vector<std::string>>();
   auto unit = std::make_shared<std::string>();
   command->add_option("files", *files, "Files, one grain each; a grain is named after its file")
@@ -105,7 +172,7 @@ void add_from_files(
   command->callback([=] {
     const double metres = parse_length_unit("--unit", *unit);
     std::vector<ShapeSource> sources;
-    for (const std::string& file : *files) sources.push_back(source(file, metres));
+    for (const std::string& file : *files) sources.push_back(level_set_file_source(file, metres));
     make(sources, *options, provenance_of(words, *files));
   });
 }
@@ -353,14 +420,9 @@ void add_grains_sources(CLI::App& grains, const CommandWords& words) {
   add_generate(grains, words);
   add_solid(grains, words);
   add_spheres(grains, words);
-  add_from_files(grains, words, "from-mesh", "Grains from closed surfaces: STL, OBJ or PLY files",
-                 "reckon grains from-mesh scans/*.stl --unit mm -o scans.h5",
-                 [](const std::string& file, double unit) { return mesh_file_source(file, unit); });
+  add_from_mesh(grains, words);
   add_from_harmonics(grains, words);
-  add_from_files(
-      grains, words, "from-grid", "Grains from signed-distance grids in LAMMPS-style text",
-      "reckon grains from-grid clay.txt --unit um -o clay.h5",
-      [](const std::string& file, double unit) { return level_set_file_source(file, unit); });
+  add_from_grid(grains, words);
 }
 
 }  // namespace reckon::app

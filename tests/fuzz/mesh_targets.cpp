@@ -4,11 +4,15 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <stdexcept>
 
 #include "reckon/avatar/mesh_mass.hpp"
+#include "reckon/avatar/mesh_parts.hpp"
 #include "reckon/avatar/mesh_reader.hpp"
+#include "reckon/avatar/mesh_repair.hpp"
 #include "reckon/avatar/mesh_validation.hpp"
+#include "reckon/core/error.hpp"
 #include "targets.hpp"
 
 namespace reckon::fuzz {
@@ -74,6 +78,25 @@ std::string obj(bool with_extras) {
   return text;
 }
 
+/// An L-shaped prism of polygons, with a corner on a straight side and a continued line.
+std::string polygons_obj() {
+  std::string text = "\xef\xbb\xbf# L\n";
+  constexpr std::array<std::array<int, 2>, 7> outline{
+      {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}};
+  for (const int z : {0, 1}) {
+    for (const auto& [x, y] : outline) {
+      text += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    }
+  }
+  text += "f 7 6 5 \\\n 4 3 2 1\nf 8 9 10 11 12 13 14\n";
+  for (int c = 0; c < 7; ++c) {
+    const int d = (c + 1) % 7;
+    text += "f " + std::to_string(c + 1) + " " + std::to_string(d + 1) + " " +
+            std::to_string(d + 8) + " " + std::to_string(c + 8) + "\n";
+  }
+  return text;
+}
+
 std::string ply_header(const std::string& format) {
   return "ply\nformat " + format +
          " 1.0\ncomment tetrahedron\nelement vertex 4\nproperty float x\nproperty float y\n"
@@ -109,14 +132,27 @@ std::string binary_ply(std::endian order) {
 using Parser = TriangleMesh (*)(std::string_view, const std::string&);
 
 /// Reads, checks and weighs a mesh, as `reckon grains` does. What passes must be a solid.
-void read(Parser parse, const std::string& input) {
-  const TriangleMesh mesh = welded(parse(input, "mesh"));
+void weigh(const TriangleMesh& mesh) {
   require_closed_surface(mesh, "mesh");
   const SolidProperties solid = solid_properties(to_principal_frame(mesh));
   const double sum = solid.volume + solid.surface_area + norm(solid.centroid);
   if (!(solid.volume > 0) || !std::isfinite(sum)) {
     throw std::logic_error("accepted, but no solid of finite volume");
   }
+}
+
+void read(Parser parse, const std::string& input) {
+  const TriangleMesh mesh = parse(input, "mesh");
+  std::exception_ptr fault;
+  try {
+    weigh(mesh);
+  } catch (const Error&) {
+    fault = std::current_exception();
+  }
+  TriangleMesh repaired = mesh;
+  (void)repair_mesh(repaired, "mesh").text();
+  for (const TriangleMesh& part : separate_solids(repaired, "mesh")) weigh(part);
+  if (fault) std::rethrow_exception(fault);
 }
 
 Target mesh_target(const std::string& name, Parser parse, std::vector<std::string> inputs) {
@@ -130,7 +166,9 @@ Target mesh_target(const std::string& name, Parser parse, std::vector<std::strin
 
 Target stl_target() { return mesh_target("stl", parse_stl, {binary_stl(), ascii_stl()}); }
 
-Target obj_target() { return mesh_target("obj", parse_obj, {obj(false), obj(true)}); }
+Target obj_target() {
+  return mesh_target("obj", parse_obj, {obj(false), obj(true), polygons_obj()});
+}
 
 Target ply_target() {
   return mesh_target("ply", parse_ply,

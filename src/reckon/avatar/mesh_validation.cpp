@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "reckon/avatar/disjoint_sets.hpp"
 #include "reckon/avatar/half_edges.hpp"
 #include "reckon/avatar/mesh_mass.hpp"
 #include "reckon/avatar/self_intersection.hpp"
@@ -31,25 +31,6 @@ constexpr const char* repair = "Repair the mesh in a mesh editor and write it ag
 std::string text(const Vec3& at) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", at.x, at.y, at.z);
 }
-
-/// Disjoint sets over 0 ... count - 1.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t root(std::uint32_t element) {
-    while (parent_[element] != element) {
-      parent_[element] = parent_[parent_[element]];
-      element = parent_[element];
-    }
-    return element;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 class Validation {
  public:
@@ -117,11 +98,7 @@ class Validation {
     std::size_t count = 0;
     std::size_t first = 0;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const Vec3 a = corner(t, 1) - corner(t, 0);
-      const Vec3 b = corner(t, 2) - corner(t, 0);
-      const double longest = std::max({norm(a), norm(b), norm(b - a)});
-      // Twice the area over the longest side is the triangle's height.
-      if (norm(cross(a, b)) > flat * size_ * longest) continue;
+      if (!is_flat(mesh_, mesh_.triangles[t], size_)) continue;
       if (count++ == 0) first = t;
     }
     if (count == 0) return;
@@ -130,7 +107,7 @@ class Validation {
     }
     fail(fmt::format("{} of {} triangles have no area", count, mesh_.triangles.size()),
          fmt::format("the first is triangle {}, near {}", first, text(corner(first, 0))),
-         "Remove degenerate faces in a mesh editor and write the mesh again.");
+         "Remove degenerate faces with --repair or in a mesh editor.");
   }
 
   /// Calls visit(first, last) for the half edges [first, last) of each edge.
@@ -156,8 +133,8 @@ class Validation {
     if (open > 0) {
       fail(fmt::format("the surface is open: {} edges belong to only one triangle", open),
            "the first is " + edge_text(first_open),
-           "Close the holes in a mesh editor. If there are none to see, merge vertices that should "
-           "be one.");
+           "Close the holes with --repair or in a mesh editor. If there are none to see, corners "
+           "that should be one differ by rounding: --merge joins them.");
     }
     if (crowded > 0) {
       fail(
@@ -179,11 +156,11 @@ class Validation {
     if (count == 0) return;
     fail(fmt::format("triangles disagree which side is out across {} edges", count),
          "the first is " + edge_text(first_bad),
-         "Make the orientation of the faces consistent in a mesh editor, outward.");
+         "Turn the faces with --repair, or make their orientation consistent in a mesh editor.");
   }
 
   void check_parts(const std::vector<HalfEdge>& edges) const {
-    Sets sets{mesh_.triangles.size()};
+    DisjointSets sets{mesh_.triangles.size()};
     for_each_edge(edges, [&](std::size_t first, std::size_t) {
       sets.join(edges[first].triangle, edges[first + 1].triangle);
     });
@@ -197,7 +174,8 @@ class Validation {
     if (parts == 1) return;
     fail(fmt::format("the mesh has {} separate parts", parts),
          fmt::format("one near {}, another near {}", text(corner(0, 0)), text(other)),
-         "Give every grain its own file, and remove inner cavities.");
+         "Take each part as a grain with --parts split, or give every grain its own file. Loose "
+         "fragments go with --repair; remove inner cavities.");
   }
 
   /// Around a vertex of a surface its triangles form one fan. Corners are joined across the edges
@@ -207,7 +185,7 @@ class Validation {
       const TriangleMesh::Triangle& t = mesh_.triangles[triangle];
       return 3 * triangle + (t[0] == vertex ? 0U : t[1] == vertex ? 1U : 2U);
     };
-    Sets sets{3 * mesh_.triangles.size()};
+    DisjointSets sets{3 * mesh_.triangles.size()};
     for_each_edge(edges, [&](std::size_t first, std::size_t) {
       for (const std::uint32_t v : {edges[first].low, edges[first].high}) {
         sets.join(corner_at(edges[first].triangle, v), corner_at(edges[first + 1].triangle, v));
@@ -232,7 +210,7 @@ class Validation {
     }
     if (volume < 0) {
       fail("the triangles face inward", fmt::format("the volume is {:.3g} m^3", volume),
-           "Flip the orientation of all faces in a mesh editor and write the mesh again.");
+           "Turn the faces with --repair, or flip them all in a mesh editor.");
     }
   }
 
@@ -251,6 +229,14 @@ class Validation {
 };
 
 }  // namespace
+
+bool is_flat(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle, double extent) {
+  const Vec3 a = mesh.vertices[triangle[1]] - mesh.vertices[triangle[0]];
+  const Vec3 b = mesh.vertices[triangle[2]] - mesh.vertices[triangle[0]];
+  const double longest = std::max({norm(a), norm(b), norm(b - a)});
+  // Twice the area over the longest side is the triangle's height.
+  return !(norm(cross(a, b)) > flat * extent * longest);
+}
 
 void require_closed_surface(const TriangleMesh& mesh, const std::string& name) {
   Validation{mesh, name}.run();

@@ -16,4 +16,8 @@ namespace reckon {
 /// 0.
 void require_closed_surface(const TriangleMesh& mesh, const std::string& name);
 
+/// Whether a triangle has no area: it is lower than 1e-12 of the mesh's largest extent.
+[[nodiscard]] bool is_flat(const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle,
+                           double extent);
+
 }  // namespace reckon

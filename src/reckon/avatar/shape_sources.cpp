@@ -14,7 +14,10 @@
 #include "reckon/avatar/geodesic_sphere.hpp"
 #include "reckon/avatar/level_set_text.hpp"
 #include "reckon/avatar/library_file.hpp"
+#include "reckon/avatar/merge_corners.hpp"
+#include "reckon/avatar/mesh_parts.hpp"
 #include "reckon/avatar/mesh_reader.hpp"
+#include "reckon/avatar/mesh_repair.hpp"
 #include "reckon/avatar/mesh_validation.hpp"
 #include "reckon/avatar/spherical_harmonics.hpp"
 #include "reckon/avatar/surface_extraction.hpp"
@@ -59,6 +62,51 @@ ShapeSource mesh_file_source(const std::filesystem::path& file, double unit_in_m
             require_closed_surface(mesh, file.string());
             return mesh;
           }};
+}
+
+namespace {
+
+/// A mesh in metres, treated; `notes` gets what was done.
+TriangleMesh treated_mesh(const std::filesystem::path& file, double unit_in_metres,
+                          const MeshTreatment& treatment, std::vector<std::string>& notes) {
+  TriangleMesh mesh = read_mesh(file, unit_in_metres);
+  if (treatment.repair) {
+    notes = repair_mesh(mesh, file.string(), treatment.merge_distance).text();
+  } else if (treatment.merge) {
+    MergedCorners merged = merge_corners(mesh, treatment.merge_distance);
+    mesh = std::move(merged.mesh);
+    if (merged.merged > 0) notes.push_back(merged.text());
+  }
+  return mesh;
+}
+
+}  // namespace
+
+MeshFileSources mesh_file_sources(const std::filesystem::path& file, double unit_in_metres,
+                                  const MeshTreatment& treatment) {
+  if (!treatment.merge && !treatment.repair && !treatment.split) {
+    return {{mesh_file_source(file, unit_in_metres)}, {}};
+  }
+  const std::string name = file.stem().string();
+  MeshFileSources made;
+  try {
+    const TriangleMesh mesh = treated_mesh(file, unit_in_metres, treatment, made.notes);
+    std::vector<TriangleMesh> parts{mesh};
+    if (treatment.split) {
+      parts = separate_solids(mesh, file.string());
+    } else {
+      require_closed_surface(mesh, file.string());
+    }
+    if (parts.size() > 1) made.notes.push_back(fmt::format("took {} parts", parts.size()));
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      made.sources.push_back(
+          {parts.size() == 1 ? name : fmt::format("{}_{}", name, p + 1),
+           [part = std::move(parts[p])](const ShapeResolution&) { return part; }});
+    }
+  } catch (const Error& error) {
+    made.sources = {{name, [error](const ShapeResolution&) -> TriangleMesh { throw error; }}};
+  }
+  return made;
 }
 
 ShapeSource harmonics_file_source(const std::filesystem::path& file, double unit_in_metres,
@@ -127,19 +175,28 @@ void require_distinct_names(std::span<const ShapeSource> sources) {
   }
 }
 
-}  // namespace
+struct Built {
+  Shape shape;
+  std::optional<Error> fault;
+};
 
-ShapeLibrary build_library(std::span<const ShapeSource> sources, const ShapeResolution& resolution,
-                           const std::function<void(std::size_t done)>& on_progress) {
-  require_distinct_names(sources);
-  ShapeLibrary library(sources.size());
+/// All shapes, or why not. `on_progress` as in build_library.
+std::vector<Built> build_each(std::span<const ShapeSource> sources,
+                              const ShapeResolution& resolution,
+                              const std::function<void(std::size_t done)>& on_progress) {
+  std::vector<Built> built(sources.size());
   std::mutex mutex;
   std::size_t done = 0;
   const auto build = [&](std::size_t s) {
-    library[s] = build_shape(sources[s].surface(resolution), resolution, sources[s].name);
-    if (sources[s].sphere_radius > 0) {
-      library[s].sphere_radius = sources[s].sphere_radius;
-      library[s].bounding_radius = std::max(library[s].bounding_radius, library[s].sphere_radius);
+    try {
+      Shape shape = build_shape(sources[s].surface(resolution), resolution, sources[s].name);
+      if (sources[s].sphere_radius > 0) {
+        shape.sphere_radius = sources[s].sphere_radius;
+        shape.bounding_radius = std::max(shape.bounding_radius, shape.sphere_radius);
+      }
+      built[s].shape = std::move(shape);
+    } catch (const Error& error) {
+      built[s].fault = error;
     }
     const std::lock_guard lock{mutex};
     ++done;
@@ -151,23 +208,47 @@ ShapeLibrary build_library(std::span<const ShapeSource> sources, const ShapeReso
   } else {
     for (std::size_t s = 0; s < sources.size(); ++s) build(s);
   }
+  return built;
+}
+
+}  // namespace
+
+ShapeLibrary build_library(std::span<const ShapeSource> sources, const ShapeResolution& resolution,
+                           const std::function<void(std::size_t done)>& on_progress) {
+  require_distinct_names(sources);
+  ShapeLibrary library;
+  library.reserve(sources.size());
+  for (Built& built : build_each(sources, resolution, on_progress)) {
+    if (built.fault) throw *built.fault;
+    library.push_back(std::move(built.shape));
+  }
   return library;
 }
 
-void build_library_file(const std::filesystem::path& path, std::span<const ShapeSource> sources,
-                        const ShapeResolution& resolution, const Provenance& provenance,
-                        const std::function<void(std::size_t done)>& on_progress) {
+std::vector<Error> build_library_file(const std::filesystem::path& path,
+                                      std::span<const ShapeSource> sources,
+                                      const ShapeResolution& resolution,
+                                      const Provenance& provenance,
+                                      const std::function<void(std::size_t done)>& on_progress) {
   require_distinct_names(sources);
   LibraryWriter writer{path, resolution.storage, provenance};
+  std::vector<Error> faults;
   const std::size_t at_a_time = 32 * static_cast<std::size_t>(thread_count());
   for (std::size_t first = 0; first < sources.size(); first += at_a_time) {
     const auto some = sources.subspan(first, std::min(at_a_time, sources.size() - first));
-    const ShapeLibrary built = build_library(some, resolution, [&](std::size_t done) {
+    const auto progress = [&](std::size_t done) {
       if (on_progress) on_progress(first + done);
-    });
-    for (const Shape& shape : built) writer.add(shape);
+    };
+    for (const Built& built : build_each(some, resolution, progress)) {
+      if (built.fault) {
+        faults.push_back(*built.fault);
+      } else {
+        writer.add(built.shape);
+      }
+    }
   }
-  writer.finish();
+  if (faults.size() < sources.size() || sources.empty()) writer.finish();
+  return faults;
 }
 
 }  // namespace reckon

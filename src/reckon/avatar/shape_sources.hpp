@@ -14,6 +14,7 @@
 #include "reckon/avatar/generator.hpp"
 #include "reckon/avatar/provenance.hpp"
 #include "reckon/avatar/shape_builder.hpp"
+#include "reckon/core/error.hpp"
 
 namespace reckon {
 
@@ -32,6 +33,23 @@ struct ShapeSource {
 /// A mesh file (mesh_reader.hpp), which must pass require_closed_surface.
 [[nodiscard]] ShapeSource mesh_file_source(const std::filesystem::path& file,
                                            double unit_in_metres);
+
+/// What may be done to a mesh before it is a closed surface.
+struct MeshTreatment {
+  bool merge{false};                       ///< join corners that differ by rounding
+  std::optional<double> merge_distance{};  ///< within this distance; else see merge_corners [m]
+  bool repair{false};                      ///< repair_mesh, which merges too
+  bool split{false};                       ///< every part is a grain of its own
+};
+struct MeshFileSources {
+  std::vector<ShapeSource> sources;
+  std::vector<std::string> notes;  ///< what was done to the mesh, one sentence each
+};
+/// A mesh file after that treatment. Parts are named NAME_1, NAME_2, ... if there are several. A
+/// file at fault is a source that throws when it is built.
+[[nodiscard]] MeshFileSources mesh_file_sources(const std::filesystem::path& file,
+                                                double unit_in_metres,
+                                                const MeshTreatment& treatment);
 /// A spherical-harmonic coefficient file, cut off above `degree` when one is given.
 [[nodiscard]] ShapeSource harmonics_file_source(const std::filesystem::path& file,
                                                 double unit_in_metres,
@@ -58,9 +76,12 @@ struct ShapeSource {
     const std::function<void(std::size_t done)>& on_progress = {});
 
 /// Builds all shapes and writes them to a library file, some at a time, so that the library need
-/// not fit into memory. Throws and tells as build_library.
-void build_library_file(const std::filesystem::path& path, std::span<const ShapeSource> sources,
-                        const ShapeResolution& resolution, const Provenance& provenance = {},
-                        const std::function<void(std::size_t done)>& on_progress = {});
+/// not fit into memory. Sources at fault are left out; their errors are returned, in the order of
+/// the sources. Nothing is written when all are at fault. Throws Error before any work when two
+/// names are equal. `on_progress` as in build_library.
+[[nodiscard]] std::vector<Error> build_library_file(
+    const std::filesystem::path& path, std::span<const ShapeSource> sources,
+    const ShapeResolution& resolution, const Provenance& provenance = {},
+    const std::function<void(std::size_t done)>& on_progress = {});
 
 }  // namespace reckon

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "reckon/avatar/mesh_reader.hpp"
 #include "reckon/avatar/surface_extraction.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
@@ -37,6 +38,13 @@ std::vector<Vec3> level_set_normals(const LevelSetView& grid, const std::vector<
 }
 
 }  // namespace
+
+TriangleMesh rounded_to_stl(TriangleMesh mesh) {
+  for (Vec3& v : mesh.vertices) {
+    for (int axis = 0; axis < 3; ++axis) v[axis] = static_cast<float>(v[axis]);
+  }
+  return welded(mesh);
+}
 
 void write_stl(const std::filesystem::path& path, const TriangleMesh& mesh,
                const std::string& title) {

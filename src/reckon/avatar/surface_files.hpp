@@ -10,6 +10,9 @@
 
 namespace reckon {
 
+/// The mesh as STL keeps it, with coordinates in single precision and equal ones welded.
+[[nodiscard]] TriangleMesh rounded_to_stl(TriangleMesh mesh);
+
 /// Writes a surface as binary STL, coordinates in metres as float. `title` goes into the header.
 void write_stl(const std::filesystem::path& path, const TriangleMesh& mesh,
                const std::string& title);

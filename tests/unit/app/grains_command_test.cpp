@@ -116,6 +116,67 @@ TEST_F(GrainsCommand, MeshesTakeTheirNameAndUnit) {
   EXPECT_NEAR(shape.descriptors.length, 6e-3, 0.1e-3);
 }
 
+TEST_F(GrainsCommand, OneBadMeshOfManyIsNamedAndLeftOut) {
+  write_stl(path("good.stl"), ellipsoid_mesh({3, 2, 2}, 0.4), "good");
+  write_file(path("bad.stl"), "solid\nnonsense\n");
+  write_file(path("worse.obj"), "v 0 0 0\n");
+  const auto make = [&](const std::vector<std::string>& files, const std::string& library) {
+    std::vector<std::string> arguments{"from-mesh"};
+    for (const std::string& file : files) arguments.push_back(path(file));
+    arguments.insert(arguments.end(), {"--unit", "mm", "--voxel", "0.4mm", "-o", path(library)});
+    ::testing::internal::CaptureStderr();
+    const std::string said = fault(arguments);
+    return said + ::testing::internal::GetCapturedStderr();
+  };
+  const std::string said = make({"bad.stl", "good.stl", "worse.obj"}, "some.h5");
+  expect_holds(said, "bad.stl, line 2: unknown word 'nonsense'");
+  expect_holds(said, "worse.obj: holds no faces");
+  expect_holds(said, "2 of 3 sources are at fault; the others are in " + path("some.h5"));
+  ASSERT_EQ(load_library(path("some.h5")).size(), 1U);
+  EXPECT_EQ(load_library(path("some.h5"))[0].name, "good");
+  expect_holds(make({"bad.stl", "worse.obj"}, "none.h5"), "none.h5 is not written");
+  EXPECT_FALSE(std::filesystem::exists(path("none.h5")));
+  expect_holds(make({"bad.stl"}, "none.h5"), "unknown word 'nonsense'");
+}
+
+TEST_F(GrainsCommand, MeshesAreMergedSplitAndRepairedOnRequest) {
+  // Two balls in one file, one with a hole; every triangle has corners of its own, rounded apart.
+  std::string text = "solid two\n";
+  std::size_t count = 0;
+  for (const double shift : {0.0, 5.0}) {
+    const TriangleMesh ball = ellipsoid_mesh({2, 2, 2}, 0.4);
+    for (std::size_t t = shift > 0 ? 1 : 0; t < ball.triangles.size(); ++t) {
+      text += "facet\n";
+      for (const std::uint32_t v : ball.triangles[t]) {
+        const Vec3& p = ball.vertices[v];
+        const double noise = 1e-6 * static_cast<double>(count++ % 7);
+        text += fmt::format("vertex {:.7f} {:.7f} {:.7f}\n", p.x + shift + noise, p.y, p.z);
+      }
+      text += "endfacet\n";
+    }
+  }
+  write_file(path("two.stl"), text + "endsolid\n");
+  const auto make = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"from-mesh", path("two.stl"), "--unit", "mm",
+                                       "--voxel",   "0.4mm",         "-o",     path("two.h5")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  expect_holds(fault(make({})), "--merge joins them");
+  expect_holds(fault(make({"--merge"})), "the surface is open: 3 edges");
+  expect_holds(fault(make({"--merge", "0.1um"})), "open");
+  expect_holds(fault(make({"--repair"})), "--parts split");
+  expect_holds(fault(make({"--merge", "far"})), "far");
+  const std::string said = grains(make({"--parts", "split", "--repair"}));
+  expect_holds(said, "two.stl: joined ");
+  expect_holds(said, "two.stl: closed 1 hole, the longest of 3 edges");
+  expect_holds(said, "two.stl: took 2 parts");
+  const ShapeLibrary library = load_library(path("two.h5"));
+  ASSERT_EQ(library.size(), 2U);
+  EXPECT_EQ(library[1].name, "two_2");
+  EXPECT_NEAR(library[1].mass.volume / library[0].mass.volume, 1, 1e-5);
+}
+
 TEST_F(GrainsCommand, LibrariesRecordTheirCommandAndTheirSources) {
   write_stl(path("a pebble.stl"), ellipsoid_mesh({3, 2, 2}, 0.4), "pebble");
   const auto make = [&](const std::string& output, std::vector<std::string> more) {

@@ -110,6 +110,56 @@ TEST_F(ShapeSources, DegreeTablesTakeCommasAndAByteOrderMark) {
   test::expect_error([&] { (void)parsed("Name,Nnn\n\"a.dat,3\n"); }, {"line 2", "double quote"});
 }
 
+TEST_F(ShapeSources, OneBadSourceLeavesTheOthers) {
+  write_stl(folder_ / "a.stl", test::cube(0, 1), "a");
+  write_stl(folder_ / "c.stl", test::cube(0, 2), "c");
+  TriangleMesh open = test::cube(0, 3);
+  open.triangles.pop_back();
+  write_stl(folder_ / "b.stl", open, "b");
+  std::vector<ShapeSource> sources;
+  for (const char* name : {"a.stl", "b.stl", "c.stl"}) {
+    sources.push_back(mesh_file_source(folder_ / name, 1e-3));
+  }
+  const ShapeResolution coarse{.voxels_per_diameter = 12, .node_count = 50};
+  const auto file = folder_ / "boxes.h5";
+  std::size_t last = 0;
+  const auto faults =
+      build_library_file(file, sources, coarse, {}, [&](std::size_t done) { last = done; });
+  EXPECT_EQ(last, 3U);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_NE(std::string{faults[0].what()}.find("b.stl: the surface is open"), std::string::npos);
+  const ShapeLibrary library = load_library(file);
+  ASSERT_EQ(library.size(), 2U);
+  EXPECT_EQ(library[0].name, "a");
+  EXPECT_EQ(library[1].name, "c");
+  // Without a good one nothing is written, and what stood there stays.
+  EXPECT_EQ(build_library_file(file, std::span{sources}.subspan(1, 1), coarse).size(), 1U);
+  EXPECT_EQ(load_library(file).size(), 2U);
+  // In memory a library is whole or not there.
+  test::expect_error([&] { (void)build_library(sources, coarse); }, {"b.stl", "open"});
+}
+
+TEST_F(ShapeSources, MeshesAreMergedRepairedAndSplitOnRequest) {
+  const TriangleMesh two = test::together(test::cube(0, 1), test::cube(2, 4));
+  write_stl(folder_ / "two.stl", two, "two");
+  const ShapeResolution coarse{.voxels_per_diameter = 12, .node_count = 50};
+  const auto made = mesh_file_sources(folder_ / "two.stl", 1e-3, {.split = true});
+  const ShapeLibrary split = build_library(made.sources, coarse);
+  ASSERT_EQ(split.size(), 2U);
+  EXPECT_EQ(split[0].name, "two_1");
+  EXPECT_NEAR(split[1].mass.volume, 8e-9, 1e-20);
+  const auto refused = mesh_file_sources(folder_ / "two.stl", 1e-3, {.repair = true});
+  test::expect_error([&] { (void)build_library(refused.sources, coarse); }, {"2 separate parts"});
+
+  TriangleMesh hole = test::cube(0, 2);
+  hole.triangles.pop_back();
+  write_stl(folder_ / "hole.stl", hole, "hole");
+  const auto repaired = mesh_file_sources(folder_ / "hole.stl", 1e-3, {.repair = true});
+  ASSERT_EQ(repaired.notes.size(), 1U);
+  EXPECT_TRUE(repaired.notes[0].starts_with("closed 1 hole")) << repaired.notes[0];
+  EXPECT_NEAR(build_library(repaired.sources, coarse)[0].mass.volume, 8e-9, 1e-20);
+}
+
 TEST_F(ShapeSources, VtpFilesHoldSurfaceAndNodes) {
   const Shape cube = build_shape(test::cube(), {.voxels_per_diameter = 12, .node_count = 40}, "c");
   write_surface_vtp(folder_ / "c.vtp", cube);
