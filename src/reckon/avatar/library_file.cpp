@@ -5,9 +5,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <optional>
 #include <set>
 #include <span>
@@ -15,6 +12,8 @@
 #include <vector>
 
 #include "reckon/avatar/legacy_morphology.hpp"
+#include "reckon/avatar/library_layout.hpp"
+#include "reckon/avatar/library_reader.hpp"
 #include "reckon/core/build_info.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/exact_sum.hpp"
@@ -23,83 +22,10 @@
 #include "reckon/core/write_failure.hpp"
 
 namespace reckon {
+
+using namespace library_layout;
+
 namespace {
-
-// 2 added sphere_radius, 3 bands, 4 provenance and sieve_size
-const Hdf5Kind library_kind{"shape library", 4};
-
-/// The scalar fields of a shape, each a dataset of one row per shape.
-struct ScalarField {
-  const char* name;
-  const char* unit;
-  double& (*of)(Shape&);
-};
-constexpr std::array scalar_fields{
-    ScalarField{"/shape/spacing", "m", [](Shape& s) -> double& { return s.level_set.spacing; }},
-    ScalarField{"/shape/volume", "m^3", [](Shape& s) -> double& { return s.mass.volume; }},
-    ScalarField{"/shape/bounding_radius", "m",
-                [](Shape& s) -> double& { return s.bounding_radius; }},
-    ScalarField{"/shape/lipschitz", "1", [](Shape& s) -> double& { return s.lipschitz; }},
-    ScalarField{"/descriptor/length", "m",
-                [](Shape& s) -> double& { return s.descriptors.length; }},
-    ScalarField{"/descriptor/width", "m", [](Shape& s) -> double& { return s.descriptors.width; }},
-    ScalarField{"/descriptor/thickness", "m",
-                [](Shape& s) -> double& { return s.descriptors.thickness; }},
-    ScalarField{"/descriptor/surface_area", "m^2",
-                [](Shape& s) -> double& { return s.descriptors.surface_area; }},
-    ScalarField{"/descriptor/equivalent_diameter", "m",
-                [](Shape& s) -> double& { return s.descriptors.equivalent_diameter; }},
-    ScalarField{"/descriptor/elongation", "1",
-                [](Shape& s) -> double& { return s.descriptors.elongation; }},
-    ScalarField{"/descriptor/flatness", "1",
-                [](Shape& s) -> double& { return s.descriptors.flatness; }},
-    ScalarField{"/descriptor/sphericity", "1",
-                [](Shape& s) -> double& { return s.descriptors.sphericity; }},
-    ScalarField{"/descriptor/convexity", "1",
-                [](Shape& s) -> double& { return s.descriptors.convexity; }},
-    ScalarField{"/descriptor/roundness", "1",
-                [](Shape& s) -> double& { return s.descriptors.roundness; }},
-};
-
-constexpr const char* sphere_radius_field = "/shape/sphere_radius";
-constexpr const char* sieve_size_field = "/descriptor/sieve_size";
-constexpr const char* values_field = "/grid/values";
-constexpr const char* band_field = "/grid/band";
-constexpr const char* program_field = "/provenance/program";
-constexpr const char* command_field = "/provenance/command";
-constexpr const char* source_field = "/provenance/source";
-constexpr const char* source_bytes_field = "/provenance/source_bytes";
-constexpr const char* source_hash_field = "/provenance/source_xxh64";
-
-struct VectorField {
-  const char* name;
-  const char* unit;
-  Vec3& (*of)(Shape&);
-};
-constexpr std::array vector_fields{
-    VectorField{"/shape/origin", "m", [](Shape& s) -> Vec3& { return s.level_set.origin_body; }},
-    VectorField{"/shape/inertia", "m^5", [](Shape& s) -> Vec3& { return s.mass.inertia; }},
-};
-
-struct NodeField {
-  const char* name;
-  const char* unit;
-  std::vector<double> SurfaceNodes::*values;
-};
-constexpr std::array node_fields{NodeField{"/node/x", "m", &SurfaceNodes::x},
-                                 NodeField{"/node/y", "m", &SurfaceNodes::y},
-                                 NodeField{"/node/z", "m", &SurfaceNodes::z},
-                                 NodeField{"/node/area", "m^2", &SurfaceNodes::area}};
-
-/// Vertices of a grid that is read from a band.
-constexpr std::uint64_t largest_band = 1'000'000'000;
-
-[[noreturn]] void damaged(const std::filesystem::path& path, std::string reason) {
-  throw Error{{.place = path.string(),
-               .problem = "the shape library is damaged",
-               .reason = std::move(reason),
-               .fix = "Make it anew with reckon grains."}};
-}
 
 /// A shape's name and numbers without its arrays.
 Shape table_row(const Shape& shape) {
@@ -152,163 +78,6 @@ void write_provenance(Hdf5Writer& file, const Provenance& made) {
   file.write(source_bytes_field, bytes, {bytes.size()}, "byte");
   file.write(source_hash_field, hashes, {hashes.size()}, "1");
 }
-
-Provenance read_provenance(const Hdf5Reader& file) {
-  const auto rows = [&](const char* name) {
-    const Hdf5Extents extents = file.extents(name);
-    if (extents.size() != 1) damaged(file.path(), fmt::format("{} is not a list", name));
-    return extents[0];
-  };
-  Provenance made;
-  made.program = file.read_texts(program_field, 1).front();
-  made.command = file.read_texts(command_field, rows(command_field));
-  const std::uint64_t count = rows(source_field);
-  const auto paths = file.read_texts(source_field, count);
-  const auto bytes = file.read<std::uint64_t>(source_bytes_field, {count});
-  const auto hashes = file.read<std::uint64_t>(source_hash_field, {count});
-  for (std::size_t s = 0; s < count; ++s) made.sources.push_back({paths[s], bytes[s], hashes[s]});
-  return made;
-}
-
-/// Reads a library's table at once and its shapes one by one.
-class LibraryReader {
- public:
-  explicit LibraryReader(const std::filesystem::path& path) : file_{path, library_kind} {
-    const Hdf5Extents extents = file_.extents("/shape/spacing");
-    if (extents.size() != 1 || extents[0] == 0) damaged(path, "it holds no shapes");
-    const std::uint64_t count = extents[0];
-    const auto names = file_.read_texts("/shape/name", count);
-    const auto dims = file_.read<std::int32_t>("/shape/dims", {count, 3});
-    digest_ = file_.read<std::uint64_t>("/shape/digest", {count});
-    table_.resize(count);  // now that the file has been seen to hold as many
-    for (std::size_t s = 0; s < count; ++s) {
-      table_[s].name = names[s];
-      table_[s].level_set.dims = {dims[3 * s], dims[3 * s + 1], dims[3 * s + 2]};
-    }
-    for (const ScalarField& field : scalar_fields) {
-      const auto values = file_.read<double>(field.name, {count});
-      for (std::size_t s = 0; s < count; ++s) field.of(table_[s]) = values[s];
-    }
-    if (file_.version() >= 2) {
-      const auto radii = file_.read<double>(sphere_radius_field, {count});
-      for (std::size_t s = 0; s < count; ++s) table_[s].sphere_radius = radii[s];
-    }
-    if (file_.version() >= 4) {
-      const auto sizes = file_.read<double>(sieve_size_field, {count});
-      for (std::size_t s = 0; s < count; ++s) table_[s].descriptors.sieve_size = sizes[s];
-      provenance_ = read_provenance(file_);
-    } else {
-      // That of the ellipse of width and thickness, which passes turned by 45 degrees.
-      for (Shape& row : table_) {
-        const auto& [width, thickness] =
-            std::pair{row.descriptors.width, row.descriptors.thickness};
-        row.descriptors.sieve_size = std::sqrt(0.5 * (width * width + thickness * thickness));
-      }
-    }
-    for (const VectorField& field : vector_fields) {
-      const auto values = file_.read<double>(field.name, {count, 3});
-      for (std::size_t s = 0; s < count; ++s) {
-        field.of(table_[s]) = {values[3 * s], values[3 * s + 1], values[3 * s + 2]};
-      }
-    }
-    const bool in_band = file_.version() >= 3 && file_.has(band_field);
-    for (Shape& row : table_) row.storage = in_band ? ShapeStorage::band : ShapeStorage::full;
-    first_value_ = read_first_rows("/shape/first_value", in_band ? band_field : values_field);
-    first_node_ = read_first_rows("/shape/first_node", "/node/x");
-    for (const NodeField& field : node_fields) {
-      if (file_.extents(field.name) != Hdf5Extents{first_node_.back()}) {
-        damaged(path, fmt::format("{} does not have a row per node", field.name));
-      }
-    }
-  }
-
-  [[nodiscard]] std::size_t size() const { return table_.size(); }
-  [[nodiscard]] const Provenance& provenance() const { return provenance_; }
-  /// All shapes without their arrays.
-  [[nodiscard]] const ShapeLibrary& table() const { return table_; }
-
-  [[nodiscard]] ShapeSummary summary(std::size_t s) const {
-    ShapeSummary summary{table_[s].name, outline_of(table_[s]), 0, digest_[s]};
-    check_outline(summary.outline, grid_values(s), place(s));
-    if (summary.outline.storage == ShapeStorage::band) summary.outline.band_words = rows(s);
-    const std::vector<double> areas = column("/node/area", s);
-    summary.outline.nodes = areas.size();
-    summary.node_area = exact_sum(areas);
-    return summary;
-  }
-
-  [[nodiscard]] Shape shape(std::size_t s) const {
-    Shape shape = table_[s];
-    if (shape.storage == ShapeStorage::band) {
-      check_outline(outline_of(shape), grid_values(s), place(s));
-      std::vector<LevelSetBand::Word> words(rows(s));
-      file_.read_rows<LevelSetBand::Word>(band_field, first_value_[s], words);
-      if (!is_band(shape.level_set.dims, words)) damaged(place(s), "its grid is not a band");
-      decode_band(words, shape.level_set);
-    } else {
-      shape.level_set.values.resize(rows(s));
-      file_.read_rows<float>(values_field, first_value_[s], shape.level_set.values);
-    }
-    for (const NodeField& field : node_fields) {
-      shape.nodes.*field.values = column(field.name, s);
-    }
-    check_shape(shape, place(s));
-    if (shape_digest(shape) != digest_[s]) damaged(place(s), "its digest is not the stored one");
-    shape.clusters = make_clusters(shape.nodes);
-    return shape;
-  }
-
- private:
-  [[nodiscard]] std::string place(std::size_t s) const {
-    return file_.path().string() + ", shape " + table_[s].name;
-  }
-  /// Of its grid: values or words.
-  [[nodiscard]] std::uint64_t rows(std::size_t s) const {
-    return first_value_[s + 1] - first_value_[s];
-  }
-  /// What dims must make. Those of a band follow from the dims alone; 0: no grid is as large.
-  [[nodiscard]] std::uint64_t grid_values(std::size_t s) const {
-    if (table_[s].storage == ShapeStorage::full) return rows(s);
-    std::uint64_t count = 1;
-    for (const std::int32_t dim : table_[s].level_set.dims) {
-      if (dim < 0 || static_cast<std::uint64_t>(dim) > largest_band / count) return 0;
-      count *= static_cast<std::uint64_t>(dim);
-      if (count == 0) return 0;
-    }
-    return count;
-  }
-  /// A column of a shape's nodes.
-  [[nodiscard]] std::vector<double> column(const char* name, std::size_t s) const {
-    std::vector<double> numbers(first_node_[s + 1] - first_node_[s]);
-    if (table_[s].storage == ShapeStorage::full) {
-      file_.read_rows<double>(name, first_node_[s], numbers);
-      return numbers;
-    }
-    std::vector<float> singles(numbers.size());
-    file_.read_rows<float>(name, first_node_[s], singles);
-    std::copy(singles.begin(), singles.end(), numbers.begin());
-    return numbers;
-  }
-  /// A table of first rows that rises from 0 to the length of `data`.
-  [[nodiscard]] std::vector<std::uint64_t> read_first_rows(const std::string& name,
-                                                           const std::string& data) const {
-    auto first = file_.read<std::uint64_t>(name, {table_.size() + 1});
-    const bool rising = std::is_sorted(first.begin(), first.end());
-    const bool held = first.back() <= std::filesystem::file_size(file_.path());
-    if (!rising || !held || first.front() != 0 ||
-        file_.extents(data) != Hdf5Extents{first.back()}) {
-      damaged(file_.path(), fmt::format("{} does not fit {}", name, data));
-    }
-    return first;
-  }
-
-  Hdf5Reader file_;
-  ShapeLibrary table_;  // all but grids and nodes
-  Provenance provenance_;
-  std::vector<std::uint64_t> digest_;
-  std::vector<std::uint64_t> first_value_;
-  std::vector<std::uint64_t> first_node_;
-};
 
 }  // namespace
 
