@@ -14,6 +14,7 @@ std::vector<Target> all_targets() {
                           obj_target(),
                           ply_target(),
                           spherical_harmonics_target(),
+                          degree_table_target(),
                           legacy_morphology_target(),
                           legacy_shape_target(),
                           legacy_positions_target(),

@@ -11,6 +11,7 @@ namespace reckon::fuzz {
 [[nodiscard]] Target obj_target();
 [[nodiscard]] Target ply_target();
 [[nodiscard]] Target spherical_harmonics_target();
+[[nodiscard]] Target degree_table_target();
 [[nodiscard]] Target legacy_morphology_target();
 [[nodiscard]] Target legacy_shape_target();
 [[nodiscard]] Target legacy_positions_target();

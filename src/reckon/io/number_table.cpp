@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 
+#include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 
@@ -29,6 +30,7 @@ constexpr std::string_view separators = " \t,\r";
 
 std::vector<double> read_number_table_text(std::string_view text, std::size_t width,
                                            const std::filesystem::path& file) {
+  text = without_byte_order_mark(text);
   std::vector<double> values;
   std::size_t line_number = 0;
   std::size_t first_empty = 0;  // number of an empty line; only allowed at the end

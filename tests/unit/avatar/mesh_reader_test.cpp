@@ -196,6 +196,17 @@ TEST(MeshReader, ConcaveAndCollinearFacesAreSplitAlongTheirOutline) {
   expect_error([&] { (void)parse_ply(bow, "g.ply"); }, {"g.ply, face 0", "crosses"});
 }
 
+TEST(MeshReader, FilesOfOtherProgramsHaveTheirVolumes) {
+  const std::filesystem::path folder = RECKON_SOURCE_DIR "/../shared/cases/meshes";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no cases in " << folder;
+  for (const auto& [name, volume] :
+       {std::pair{"concave0.obj", 3.0}, {"collinear_mid0.obj", 6.0}, {"bom.stl", 6.0}}) {
+    const TriangleMesh mesh = read_mesh(folder / name, 1);
+    ASSERT_NO_THROW(require_closed_surface(mesh, name));
+    EXPECT_NEAR(enclosed_volume(mesh), volume, 1e-12) << name;
+  }
+}
+
 TEST(MeshReader, BackslashesContinueLines) {
   const std::string plain = test::obj(lopsided());
   std::string broken = "# a \\ in a comment ends nothing\n";

@@ -18,6 +18,11 @@ TEST(NumberTable, ReadsRows) {
   EXPECT_EQ(read_number_table_text("1 2 3\n# note\n4,5e-1,+6\r\n\n\n", 3, "f"),
             (std::vector<double>{1, 2, 3, 4, 0.5, 6}));
   EXPECT_TRUE(read_number_table_text("", 3, "f").empty());
+  EXPECT_EQ(read_number_table_text("\xef\xbb\xbf"
+                                   "1,2,3\n",
+                                   3, "f"),
+            (std::vector<double>{1, 2, 3}))
+      << "behind a byte-order mark";
 }
 
 TEST(NumberTable, NamesTheLineAtFault) {
