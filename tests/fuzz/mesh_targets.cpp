@@ -151,7 +151,9 @@ void read(Parser parse, const std::string& input) {
   }
   TriangleMesh repaired = mesh;
   (void)repair_mesh(repaired, "mesh").text();
-  for (const TriangleMesh& part : separate_solids(repaired, "mesh")) weigh(part);
+  for (const SolidPart& part : separate_solids(repaired, "mesh")) {
+    if (!part.fault) weigh(part.mesh);
+  }
   if (fault) std::rethrow_exception(fault);
 }
 

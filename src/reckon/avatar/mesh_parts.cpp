@@ -61,21 +61,50 @@ std::vector<TriangleMesh> grouped(const TriangleMesh& mesh, const std::vector<st
   return meshes;
 }
 
-/// Throws unless no part lies inside another. They do not cross.
-void require_side_by_side(const std::vector<TriangleMesh>& parts, const std::string& name) {
-  std::vector<TriangleBvh> trees;
-  trees.reserve(parts.size());
-  for (const TriangleMesh& part : parts) trees.emplace_back(part);
+void append(TriangleMesh& whole, const TriangleMesh& own) {
+  const auto first = static_cast<std::uint32_t>(whole.vertices.size());
+  whole.vertices.insert(whole.vertices.end(), own.vertices.begin(), own.vertices.end());
+  for (const auto& [a, b, c] : own.triangles) {
+    whole.triangles.push_back({first + a, first + b, first + c});
+  }
+}
+
+/// Throws unless no part without a fault lies inside another. They do not cross.
+void require_side_by_side(const std::vector<SolidPart>& parts, const std::string& name) {
+  std::vector<std::optional<TriangleBvh>> trees(parts.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (!parts[p].fault) trees[p].emplace(parts[p].mesh);
+  }
   for (std::size_t inner = 0; inner < parts.size(); ++inner) {
     for (std::size_t outer = 0; outer < parts.size(); ++outer) {
-      if (inner == outer || !lies_in(trees[inner].bounds(), trees[outer].bounds())) continue;
-      if (trees[outer].signed_distance(parts[inner].vertices.front()) > 0) continue;
+      if (inner == outer || !trees[inner] || !trees[outer]) continue;
+      if (!lies_in(trees[inner]->bounds(), trees[outer]->bounds())) continue;
+      if (trees[outer]->signed_distance(parts[inner].mesh.vertices.front()) > 0) continue;
       throw Error{{.place = fmt::format("{}, part {}", name, inner + 1),
                    .problem = fmt::format("lies inside part {}", outer + 1),
                    .reason = "whether it is a cavity or a second grain cannot be known",
                    .fix = "Remove one of the two in a mesh editor."}};
     }
   }
+}
+
+/// Throws unless the parts without a fault neither touch nor cross.
+void require_apart(const std::vector<SolidPart>& parts, const std::string& name) {
+  TriangleMesh whole;
+  std::vector<std::size_t> owner;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].fault) continue;
+    append(whole, parts[p].mesh);
+    owner.resize(whole.triangles.size(), p);
+  }
+  if (whole.triangles.empty()) return;
+  const auto pair = first_self_intersection(whole);
+  if (!pair) return;
+  const Vec3& at = whole.vertices[whole.triangles[pair->first][0]];
+  throw Error{{.place = fmt::format("{}, part {}", name, owner[pair->first] + 1),
+               .problem = fmt::format("touches or crosses part {}", owner[pair->second] + 1),
+               .reason = fmt::format("near ({:.6g}, {:.6g}, {:.6g}) m", at.x, at.y, at.z),
+               .fix = "Move the parts apart, or join them, in a mesh editor."}};
 }
 
 }  // namespace
@@ -122,33 +151,25 @@ LargestPart largest_part(const TriangleMesh& mesh) {
 TriangleMesh with_own_corners(const TriangleMesh& mesh) {
   const std::vector<std::uint32_t> part = parts_of(mesh);
   TriangleMesh whole;
-  for (const TriangleMesh& own : grouped(mesh, part, count_of(part))) {
-    const auto first = static_cast<std::uint32_t>(whole.vertices.size());
-    whole.vertices.insert(whole.vertices.end(), own.vertices.begin(), own.vertices.end());
-    for (const auto& [a, b, c] : own.triangles) {
-      whole.triangles.push_back({first + a, first + b, first + c});
-    }
-  }
+  for (const TriangleMesh& own : grouped(mesh, part, count_of(part))) append(whole, own);
   return whole;
 }
 
-std::vector<TriangleMesh> separate_solids(const TriangleMesh& mesh, const std::string& name) {
+std::vector<SolidPart> separate_solids(const TriangleMesh& mesh, const std::string& name) {
   const std::vector<std::uint32_t> part = parts_of(mesh);
-  const std::uint32_t count = count_of(part);
-  if (count == 1) {
-    require_closed_surface(mesh, name);
-    return {mesh};
+  std::vector<SolidPart> parts;
+  for (TriangleMesh& own : grouped(mesh, part, count_of(part))) {
+    parts.push_back({std::move(own), {}});
   }
-  std::vector<TriangleMesh> parts = grouped(mesh, part, count);
-  for (std::uint32_t p = 0; p < count; ++p) {
-    require_closed_surface(parts[p], fmt::format("{}, part {}", name, p + 1));
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    try {
+      require_closed_surface(parts[p].mesh,
+                             parts.size() == 1 ? name : fmt::format("{}, part {}", name, p + 1));
+    } catch (const Error& error) {
+      parts[p].fault = error;
+    }
   }
-  if (const auto pair = first_self_intersection(mesh)) {
-    throw Error{{.place = fmt::format("{}, part {}", name, part[pair->first] + 1),
-                 .problem = fmt::format("touches or crosses part {}", part[pair->second] + 1),
-                 .reason = fmt::format("first at triangles {} and {}", pair->first, pair->second),
-                 .fix = "Move the parts apart, or join them, in a mesh editor."}};
-  }
+  require_apart(parts, name);
   require_side_by_side(parts, name);
   return parts;
 }

@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reckon/avatar/triangle_mesh.hpp"
+#include "reckon/core/error.hpp"
 
 namespace reckon {
 
@@ -29,10 +31,17 @@ struct LargestPart {
 /// The same surface, in which no two parts share a corner.
 [[nodiscard]] TriangleMesh with_own_corners(const TriangleMesh& mesh);
 
-/// Every part as a mesh of its own. Throws Error, with `name` and the part's number (from 1) as the
-/// place, unless each is the closed surface of one solid (require_closed_surface) and all lie
-/// apart: a part that lies in another may be a cavity or a second grain, and which cannot be known.
-[[nodiscard]] std::vector<TriangleMesh> separate_solids(const TriangleMesh& mesh,
-                                                        const std::string& name);
+/// A part of a mesh as a grain, or why it cannot be one.
+struct SolidPart {
+  TriangleMesh mesh;
+  std::optional<Error> fault;
+};
+
+/// Every part of a mesh, in order. A part is at fault, with `name` and its number (from 1) as the
+/// place, unless it is the closed surface of one solid (require_closed_surface). Throws Error where
+/// parts without a fault are not apart: one that lies in another may be a cavity or a second grain,
+/// and which cannot be known.
+[[nodiscard]] std::vector<SolidPart> separate_solids(const TriangleMesh& mesh,
+                                                     const std::string& name);
 
 }  // namespace reckon

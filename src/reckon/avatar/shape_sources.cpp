@@ -90,18 +90,21 @@ MeshFileSources mesh_file_sources(const std::filesystem::path& file, double unit
   const std::string name = file.stem().string();
   MeshFileSources made;
   try {
-    const TriangleMesh mesh = treated_mesh(file, unit_in_metres, treatment, made.notes);
-    std::vector<TriangleMesh> parts{mesh};
+    TriangleMesh mesh = treated_mesh(file, unit_in_metres, treatment, made.notes);
+    std::vector<SolidPart> parts;
     if (treatment.split) {
       parts = separate_solids(mesh, file.string());
     } else {
       require_closed_surface(mesh, file.string());
+      parts.push_back({std::move(mesh), {}});
     }
-    if (parts.size() > 1) made.notes.push_back(fmt::format("took {} parts", parts.size()));
+    if (parts.size() > 1) made.notes.push_back(fmt::format("found {} parts", parts.size()));
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      made.sources.push_back(
-          {parts.size() == 1 ? name : fmt::format("{}_{}", name, p + 1),
-           [part = std::move(parts[p])](const ShapeResolution&) { return part; }});
+      made.sources.push_back({parts.size() == 1 ? name : fmt::format("{}_{}", name, p + 1),
+                              [part = std::move(parts[p])](const ShapeResolution&) {
+                                if (part.fault) throw *part.fault;
+                                return part.mesh;
+                              }});
     }
   } catch (const Error& error) {
     made.sources = {{name, [error](const ShapeResolution&) -> TriangleMesh { throw error; }}};

@@ -217,24 +217,34 @@ TEST(MeshParts, EachSolidOfAMeshBecomesOne) {
   const TriangleMesh three =
       test::together(test::together(test::cube(0, 1), moved(test::cube(0, 2), {5, 0, 0})),
                      moved(test::cube(0, 3), {0, 9, 0}));
-  const std::vector<TriangleMesh> parts = separate_solids(three, "heap");
+  const std::vector<SolidPart> parts = separate_solids(three, "heap");
   ASSERT_EQ(parts.size(), 3U);
-  EXPECT_NEAR(enclosed_volume(parts[0]), 1, 1e-12);
-  EXPECT_NEAR(enclosed_volume(parts[1]), 8, 1e-12);
-  EXPECT_NEAR(enclosed_volume(parts[2]), 27, 1e-12);
+  EXPECT_NEAR(enclosed_volume(parts[0].mesh), 1, 1e-12);
+  EXPECT_NEAR(enclosed_volume(parts[1].mesh), 8, 1e-12);
+  EXPECT_NEAR(enclosed_volume(parts[2].mesh), 27, 1e-12);
   EXPECT_EQ(separate_solids(test::cube(), "one").size(), 1U);
 
   const auto refused = [](const TriangleMesh& mesh, std::initializer_list<std::string> texts) {
     test::expect_error([&] { (void)separate_solids(mesh, "heap"); }, texts);
   };
-  TriangleMesh cavity = test::cube(1, 2);
-  for (TriangleMesh::Triangle& t : cavity.triangles) std::swap(t[0], t[1]);
-  refused(test::together(test::cube(0, 3), cavity), {"heap, part 2", "inward"});
   refused(test::together(test::cube(0, 3), test::cube(1, 2)), {"part 2", "inside part 1"});
   refused(test::together(test::cube(0, 3), test::cube(2, 5)), {"touches or crosses"});
+}
+
+TEST(MeshParts, OneBadPartLeavesTheOthers) {
+  const auto second_fault = [](const TriangleMesh& mesh) -> std::string {
+    const std::vector<SolidPart> parts = separate_solids(mesh, "heap");
+    EXPECT_EQ(parts.size(), 2U);
+    EXPECT_FALSE(parts[0].fault);
+    return parts[1].fault ? parts[1].fault->what() : "no fault";
+  };
+  TriangleMesh cavity = test::cube(1, 2);
+  for (TriangleMesh::Triangle& t : cavity.triangles) std::swap(t[0], t[1]);
+  EXPECT_TRUE(second_fault(test::together(test::cube(0, 3), cavity))
+                  .starts_with("heap, part 2: the triangles face inward"));
   TriangleMesh open = test::together(test::cube(0, 1), test::cube(4, 5));
   open.triangles.pop_back();
-  refused(open, {"part 2", "open"});
+  EXPECT_TRUE(second_fault(open).starts_with("heap, part 2: the surface is open"));
 }
 
 }  // namespace
