@@ -23,6 +23,7 @@
 #include "reckon/avatar/surface_extraction.hpp"
 #include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/core/write_failure.hpp"
 #include "reckon/math/portable.hpp"
 #include "reckon/parallel/threads.hpp"
 
@@ -198,6 +199,8 @@ std::vector<Built> build_each(std::span<const ShapeSource> sources,
         shape.bounding_radius = std::max(shape.bounding_radius, shape.sphere_radius);
       }
       built[s].shape = std::move(shape);
+    } catch (const MachineFailure&) {
+      throw;
     } catch (const Error& error) {
       built[s].fault = error;
     }
