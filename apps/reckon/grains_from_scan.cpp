@@ -43,11 +43,10 @@ struct Options {
 
 const std::map<std::string, Denoising> denoisings{
     {"none", Denoising::none}, {"median", Denoising::median}, {"curvature", Denoising::curvature}};
-const std::map<std::string, ScanStage> stages{{"read", ScanStage::read},
-                                              {"denoise", ScanStage::denoise},
-                                              {"threshold", ScanStage::threshold},
-                                              {"split", ScanStage::split},
-                                              {"avatars", ScanStage::choose}};
+const std::map<std::string, ScanStage> stages{
+    {"read", ScanStage::read},       {"specimen", ScanStage::specimen},
+    {"denoise", ScanStage::denoise}, {"threshold", ScanStage::threshold},
+    {"split", ScanStage::split},     {"avatars", ScanStage::choose}};
 
 /// The avatars' grid is as fine as the scan unless told otherwise.
 ShapeResolution resolution_of(const Options& options) {
@@ -105,7 +104,8 @@ void run(Options options) {
   for (const KeptShape& shape : assembly.shapes) library.add(shape.whole());
   library.finish();
   write_placement(folder / "placement.csv", assembly.grains);
-  report.avatars(assembly, segment.volume.voxel);
+  report.avatars(assembly, scan);
+  report.doubts(stored, scan, assembly);
   if (!options.truth.empty()) report.compare(options.truth, assembly, scan);
   report.finish();
 }
@@ -115,6 +115,17 @@ void add_stage_options(CLI::App& command, Options& options) {
     return command.add_option(name, value, what)->capture_default_str();
   };
   SegmentSettings& s = options.segment;
+  command.add_option("--mask", s.specimen.mask,
+                     "Volume whose voxels above 0 are the specimen (default: found)");
+  command.add_flag("--keep-container", s.specimen.keep_container,
+                   "Do not look for walls and floors to take out");
+  command.add_flag("--keep-shading", s.specimen.keep_shading,
+                   "Do not level the grays of void and solid over the volume");
+  command
+      .add_option("--phases", s.mask.phases,
+                  "Solids of different gray that are looked for: 1, or 0 for as many as there are")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1));
   command.add_option("--denoise", s.denoise.method, "How noise is taken out")
       ->transform(CLI::CheckedTransformer(denoisings))
       ->default_str("curvature");
@@ -209,10 +220,11 @@ void add_grains_from_scan(CLI::App& grains) {
   command->add_option("--gray", s.gray, "With --labelled: the gray volume of the same scan")
       ->needs(labelled);
   command
-      ->add_option("--until", options->until,
-                   "Stop after read, denoise, threshold or split, and look at the pictures")
+      ->add_option(
+          "--until", options->until,
+          "Stop after read, specimen, denoise, threshold or split, and look at the pictures")
       ->capture_default_str()
-      ->check(CLI::IsMember({"read", "denoise", "threshold", "split", "avatars"}));
+      ->check(CLI::IsMember({"read", "specimen", "denoise", "threshold", "split", "avatars"}));
   command->add_option("--slice", options->slice, "Layer of the pictures (default: the middle)");
   add_stage_options(*command, *options);
   add_avatar_options(*command, *options);

@@ -209,6 +209,24 @@ void add_grains_scan(CLI::App& grains) {
   number("--void-gray", s.void_gray, "Gray value of void");
   number("--solid-gray", s.solid_gray, "Gray value of solid");
   number("--seed", s.seed, "Seed of the noise");
+  ScanArtefacts& a = s.artefacts;
+  number("--tube", a.tube, "Gray of a tube around the grains / (solid - void); 0: none");
+  number("--floor", a.floor, "Gray of a floor under the grains / (solid - void); 0: none");
+  command->add_option_function<double>(
+      "--circle",
+      [options](double gray) {
+        options->scanner.artefacts.circle = 1;
+        options->scanner.artefacts.circle_gray = gray;
+      },
+      "Constant gray value outside the circle that fits into the volume");
+  number("--shading", a.shading, "Gray added from one side to the other along x / (solid - void)");
+  number("--gain-shading", a.gain_shading, "Share by which the gray changes likewise");
+  number("--cupping", a.cupping, "Share of its gray that the axis loses, void included");
+  number("--rings", a.rings, "Standard deviation of rings about the axis / (solid - void)");
+  number("--mineral-share", a.mineral_share, "Share of the grains that are another mineral");
+  number("--mineral-gray", a.mineral_gray, "Its gray above void / (solid - void)");
+  number("--crack-share", a.crack_share, "Share of the grains that have a crack");
+  number("--crack-width", a.crack_width, "Width of the cracks [voxels]");
   command
       ->add_option("--memory", options->memory,
                    "For the volume, e.g. 8GB; a larger one is scanned slab by slab (default: half "

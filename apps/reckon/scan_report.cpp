@@ -16,6 +16,7 @@
 #include "reckon/io/csv_text.hpp"
 #include "reckon/io/human.hpp"
 #include "reckon/io/placement_table.hpp"
+#include "reckon/scan/doubts.hpp"
 #include "reckon/scan/scan_truth.hpp"
 #include "reckon/scan/volume_file.hpp"
 
@@ -24,18 +25,29 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-void write_quality(const std::filesystem::path& file, const ScannedAssembly& assembly) {
+/// Which phase a gray belongs to, from 1.
+std::size_t phase_of(double gray, const std::vector<double>& phases) {
+  std::size_t nearest = 0;
+  for (std::size_t p = 1; p < phases.size(); ++p) {
+    if (std::abs(phases[p] - gray) < std::abs(phases[nearest] - gray)) nearest = p;
+  }
+  return nearest + 1;
+}
+
+void write_quality(const std::filesystem::path& file, const ScannedAssembly& assembly,
+                   const std::vector<double>& phases) {
   std::string text =
-      "grain,label,voxels,volume_m3,volume_over_labels,volume_over_gray,level,gradient_error,"
+      "grain,label,phase,gray,voxels,volume_m3,volume_over_labels,volume_over_gray,level,gradient_"
+      "error,"
       "surface_distance_m,area_kept,neighbours,contacts,deepest_overlap_m\n";
   for (std::size_t n = 0; n < assembly.quality.size(); ++n) {
     const AvatarQuality& q = assembly.quality[n];
-    text +=
-        fmt::format("{},{},{},{},{:.6f},{:.6f},{:.4f},{:.6f},{:.6g},{:.5f},{},{},{:.6g}\n",
-                    csv_text(assembly.shapes[n].entry().name),
-                    q.given_label == 0 ? q.label : q.given_label, q.voxels, q.volume,
-                    q.volume / q.label_volume, q.volume / q.gray_volume, q.level, q.gradient_error,
-                    q.surface_distance, q.area_kept, q.neighbours, q.contacts, q.deepest_overlap);
+    text += fmt::format(
+        "{},{},{},{:.6g},{},{},{:.6f},{:.6f},{:.4f},{:.6f},{:.6g},{:.5f},{},{},{:.6g}\n",
+        csv_text(assembly.shapes[n].entry().name), q.given_label == 0 ? q.label : q.given_label,
+        phase_of(q.solid_gray, phases), q.solid_gray, q.voxels, q.volume, q.volume / q.label_volume,
+        q.volume / q.gray_volume, q.level, q.gradient_error, q.surface_distance, q.area_kept,
+        q.neighbours, q.contacts, q.deepest_overlap);
   }
   write_file(file, text);
 }
@@ -164,9 +176,10 @@ void ScanReport::segmented(const Segmentation& scan, ScanStage last) {
   }
 }
 
-void ScanReport::avatars(const ScannedAssembly& assembly, double voxel) {
+void ScanReport::avatars(const ScannedAssembly& assembly, const Segmentation& scan) {
   end_stage();
-  write_quality(folder_ / "quality.csv", assembly);
+  const double voxel = scan.raw.voxel();
+  write_quality(folder_ / "quality.csv", assembly, scan.phases);
   write_contacts(folder_ / "contacts.csv", assembly);
   double diameter = 0;
   double overlap = 0;
@@ -207,6 +220,44 @@ void ScanReport::avatars(const ScannedAssembly& assembly, double voxel) {
   json_.value("blur_voxels", assembly.spread);
   json_.value("overlapping_pairs", overlapping);
   json_.value("deepest_overlap_voxels", overlap / voxel);
+}
+
+void ScanReport::doubts(const StoredScan& stored, const Segmentation& scan,
+                        const ScannedAssembly& assembly) {
+  constexpr std::size_t most_pictures = 24;
+  std::vector<Doubt> doubts = doubtful_splits(scan.labels, scan.grains, scan.work);
+  const std::size_t splits = doubts.size();
+  const std::vector<std::string> many = check_doubts(doubts, assembly.shapes.size());
+  const std::vector<Doubt> joins = doubtful_joins(scan.waists);
+  doubts.insert(doubts.end(), joins.begin(), joins.end());
+  std::string text = "what,grain_a,grain_b,measure,x_m,y_m,z_m,picture\n";
+  const auto name = [&](std::uint32_t label) { return name_of(scan.grains[label - 1], label); };
+  for (std::size_t n = 0; n < doubts.size(); ++n) {
+    const Doubt& doubt = doubts[n];
+    const bool is_split = doubt.kind == Doubt::Kind::split;
+    std::string picture;
+    const std::size_t place = is_split ? n : n - splits;
+    if (place < most_pictures) {
+      picture = fmt::format("doubt-{}-{}.png", is_split ? "split" : "join", place + 1);
+      write_place(scan, doubt.voxel, folder_ / picture);
+    }
+    const Vec3 world =
+        scan.raw.voxel() * Vec3{doubt.voxel[0] + 0.5, doubt.voxel[1] + 0.5, doubt.voxel[2] + 0.5};
+    text += fmt::format("{},{},{},{:.3f},{:.6g},{:.6g},{:.6g},{}\n", is_split ? "split" : "join",
+                        name(doubt.a), name(doubt.b), doubt.measure, world.x, world.y, world.z,
+                        picture);
+  }
+  write_file(folder_ / "doubtful.csv", text);
+  fmt::print(
+      "doubtful   {} splits across a wide face, {} joins across a waist: doubtful.csv, with "
+      "pictures\n",
+      splits, joins.size());
+  json_.value("doubtful_splits", splits);
+  json_.value("doubtful_joins", joins.size());
+  for (const auto& list : {many, check_packing(assembly, scan.grains, scan.choice, scan.levels),
+                           check_scan(stored, scan.mask, assembly.spread)}) {
+    for (const std::string& found : list) remark(found);
+  }
 }
 
 void ScanReport::compare(const std::string& truth_folder, const ScannedAssembly& assembly,

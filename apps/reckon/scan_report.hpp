@@ -23,7 +23,9 @@ class ScanReport {
   void remark(const std::string& text);
   void segmented(const Segmentation& scan, ScanStage last);
   /// Also writes quality.csv, contacts.csv and the scene that relaxes the assembly.
-  void avatars(const ScannedAssembly& assembly, double voxel);
+  void avatars(const ScannedAssembly& assembly, const Segmentation& scan);
+  /// Doubtful splits and joins, in doubtful.csv and in pictures; what speaks against the result.
+  void doubts(const StoredScan& stored, const Segmentation& scan, const ScannedAssembly& assembly);
   /// Compares with the folder that `reckon grains scan` wrote.
   void compare(const std::string& truth, const ScannedAssembly& assembly, const Segmentation& scan);
   /// Writes report.json.

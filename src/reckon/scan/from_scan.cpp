@@ -12,13 +12,14 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/hdf5_file.hpp"
 #include "reckon/core/xxhash64.hpp"
+#include "reckon/scan/doubts.hpp"
 #include "reckon/scan/image_filters.hpp"
 #include "reckon/scan/label_pieces.hpp"
 
 namespace reckon {
 namespace {
 
-const Hdf5Kind stage_kind{"scan stage", 2};
+const Hdf5Kind stage_kind{"scan stage", 3};
 
 /// What a stage's result depends on: the input's values and all settings up to it.
 using Key = std::uint64_t;
@@ -48,7 +49,8 @@ void store(const std::filesystem::path& file, Key key, const DiskVolume<Value>& 
   writer.finish();
 }
 
-/// The volume of a stage's file if it is sound and has this key; `numbers` are filled.
+/// The volume of a stage's file if it is sound and has this key; `numbers` are filled, with as many
+/// as it had or more.
 template <class Value>
 std::optional<DiskVolume<Value>> recall(const std::filesystem::path& file, Key key,
                                         const GrayOnDisk& raw, std::vector<double>& numbers) {
@@ -58,7 +60,9 @@ std::optional<DiskVolume<Value>> recall(const std::filesystem::path& file, Key k
     if (reader.read<std::uint64_t>("/key", {1}).front() != key) return std::nullopt;
     const auto dims = reader.read<std::int32_t>("/dims", {3});
     if (!std::equal(dims.begin(), dims.end(), raw.dims().begin())) return std::nullopt;
-    numbers = reader.read<double>("/numbers", {numbers.size()});
+    const Hdf5Extents extents = reader.extents("/numbers");
+    if (extents.size() != 1 || extents[0] < numbers.size()) return std::nullopt;
+    numbers = reader.read<double>("/numbers", extents);
     return DiskVolume<Value>{std::make_shared<ByteFile>(file),
                              reader.place<Value>("/values", raw.box().voxels()), raw.dims(),
                              raw.voxel()};
@@ -91,6 +95,8 @@ class Segmenter {
     remark(loaded.remarks);
     hash.update(std::as_bytes(std::span{scan_.raw.dims()}));
     key_ = hash.digest();
+    if (last >= ScanStage::threshold) remark_blocks();
+    if (last >= ScanStage::specimen) find_specimen_stage();
     if (last >= ScanStage::denoise) denoise();
     if (last >= ScanStage::threshold) threshold();
     if (last >= ScanStage::split) split();
@@ -103,10 +109,17 @@ class Segmenter {
   void measure_solid() {
     if (scan_.mask.empty()) return;
     std::uint64_t solid = 0;
+    std::uint64_t all = 0;
     for (const Box& slab : scan_.work.slabs(scan_.mask.dims())) {
-      for (const std::uint8_t voxel : scan_.mask.read(slab).values) solid += voxel;
+      const MaskVolume mask = scan_.mask.read(slab);
+      const MaskVolume inside =
+          scan_.inside.empty() ? MaskVolume{slab, 0, 1} : scan_.inside.read(slab);
+      for (std::size_t v = 0; v < mask.values.size(); ++v) {
+        solid += mask.values[v];
+        all += inside.values[v];
+      }
     }
-    scan_.solid_share = static_cast<double>(solid) / static_cast<double>(scan_.mask.box().voxels());
+    scan_.solid_share = static_cast<double>(solid) / static_cast<double>(all);
   }
 
   void remark(const std::vector<std::string>& remarks) {
@@ -169,6 +182,93 @@ class Segmenter {
     return std::move(scan_);
   }
 
+  /// How often a volume's voxels are worked on, because blocks overlap.
+  [[nodiscard]] double repetition(const Workspace& work) const {
+    std::uint64_t voxels = 0;
+    for (const Block& block : work.blocks(scan_.raw.dims(), scan_.work.grain_overlap())) {
+      voxels += block.whole.voxels();
+    }
+    return static_cast<double>(voxels) / static_cast<double>(scan_.raw.box().voxels());
+  }
+
+  /// Before the work that it would slow down.
+  void remark_blocks() {
+    constexpr double bearable = 4;
+    const double times = repetition(scan_.work);
+    if (times < bearable) return;
+    Workspace more = scan_.work;
+    more.memory = scan_.work.memory_limit();
+    while (repetition(more) > bearable / 2) more.memory += more.memory / 4;
+    const auto blocks = scan_.work.blocks(scan_.raw.dims(), scan_.work.grain_overlap());
+    const VoxelDims& core = blocks.front().core.dims;
+    remark({fmt::format(
+        "{} blocks of {} x {} x {} voxels overlap by {} voxels, so each voxel is worked on {:.0f} "
+        "times. --memory {}MB, or a smaller --overlap, makes this at most {:.0f} times",
+        blocks.size(), core[0], core[1], core[2], scan_.work.grain_overlap(), times,
+        more.memory / 1000000 + 1, bearable / 2)});
+  }
+
+  /// Not stored: it takes a few passes through the volume.
+  void find_specimen_stage() {
+    begin(ScanStage::specimen);
+    Specimen specimen = find_specimen(scan_.raw, settings_.specimen, scan_.work);
+    scan_.outer = specimen.outer;
+    scan_.inside = specimen.inside;
+    remark(specimen.remarks);
+    if (specimen.remarks.empty()) return;
+    scan_.raw = specimen.gray;
+    XxHash64 hash;
+    for (const Box& slab : scan_.work.slabs(scan_.raw.dims())) {
+      const GrayVolume part = scan_.raw.read(slab);
+      hash.update(std::as_bytes(std::span{part.values}));
+    }
+    key_ = key_after(key_, fmt::format("specimen {}", hash.digest()));
+  }
+
+  /// Grains that what lies outside cuts off: bright to the very edge over a part of their
+  /// cross-section. One that merely touches it has its own blurred surface there, and stays.
+  void mark_cut_grains() {
+    if (scan_.outer.empty()) return;
+    constexpr double small_face = 0.25;  // cuts off about one percent of a ball
+    constexpr double full = 0.9;         // solid share of a voxel that lies under no surface
+    std::vector<double> faces(scan_.grains.size(), 0);
+    std::vector<bool> at_edge(scan_.grains.size(), false);
+    for (const Box& slab : scan_.work.slabs(scan_.labels.dims())) {
+      const Box wide = slab.widened(1, scan_.labels.box());
+      const LabelVolume labels = scan_.labels.read(slab);
+      const MaskVolume outer = scan_.outer.read(wide);
+      const GrayVolume gray = scan_.raw.read(slab);
+      std::size_t v = 0;
+      for_each_voxel(slab, [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+        const std::size_t at = v++;
+        const std::uint32_t label = labels.values[at];
+        if (label == 0) return;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          for (const std::int32_t step : {-1, 1}) {
+            VoxelDims next{i, j, k};
+            next[axis] += step;
+            if (!outer.holds(next[0], next[1], next[2])) continue;
+            if (outer.values[outer.index(next[0], next[1], next[2])] != 0) continue;
+            at_edge[label - 1] = true;
+            if (scan_.levels.share(gray.values[at]) > full) faces[label - 1] += 1;
+          }
+        }
+      });
+    }
+    std::size_t touching = 0;
+    for (std::size_t n = 0; n < faces.size(); ++n) {
+      LabelledGrain& grain = scan_.grains[n];
+      const double cut = faces[n] / cross_section_in_faces(grain.voxels);
+      if (cut > small_face) grain.on_border = true;
+      touching += at_edge[n] && cut <= small_face ? 1U : 0U;
+    }
+    if (touching == 0) return;
+    remark(
+        {fmt::format("{} grains touch what lies outside; about one percent of their volume "
+                     "may be missing there",
+                     touching)});
+  }
+
   void denoise() {
     begin(ScanStage::denoise);
     const DenoiseSettings& s = settings_.denoise;
@@ -187,21 +287,38 @@ class Segmenter {
   void threshold() {
     begin(ScanStage::threshold);
     const MaskSettings& s = settings_.mask;
-    key_ = key_after(key_, fmt::format("threshold {} {} {} {}", s.threshold.has_value(),
-                                       s.threshold.value_or(0), s.fill, s.open_radius));
+    key_ = key_after(key_, fmt::format("threshold {} {} {} {} {}", s.threshold.has_value(),
+                                       s.threshold.value_or(0), s.fill, s.open_radius, s.phases));
     std::vector<double> numbers(3);
     if (auto known =
             recall<std::uint8_t>(file_of(ScanStage::threshold), key_, scan_.raw, numbers)) {
       scan_.resumed.push_back(ScanStage::threshold);
       scan_.mask = std::move(*known);
       scan_.levels = {numbers[0], numbers[1], numbers[2]};
+      scan_.phases.assign(numbers.begin() + 3, numbers.end());
+      remark_phases();
       return;
     }
-    SolidMask solid = find_solid(scan_.denoised, s, scan_.work);
+    SolidMask solid = find_solid(scan_.denoised, s, scan_.work, scan_.inside);
     scan_.mask = std::move(solid.mask);
     scan_.levels = solid.levels;
-    store(file_of(ScanStage::threshold), key_, scan_.mask, scan_.work,
-          {scan_.levels.threshold, scan_.levels.void_gray, scan_.levels.solid_gray});
+    scan_.phases = solid.phases;
+    remark_phases();
+    numbers = {scan_.levels.threshold, scan_.levels.void_gray, scan_.levels.solid_gray};
+    numbers.insert(numbers.end(), scan_.phases.begin(), scan_.phases.end());
+    store(file_of(ScanStage::threshold), key_, scan_.mask, scan_.work, numbers);
+  }
+
+  void remark_phases() {
+    if (scan_.phases.empty()) return;
+    std::string grays;
+    for (const double gray : scan_.phases) {
+      grays += fmt::format("{}{:.6g}", grays.empty() ? "" : ", ", gray);
+    }
+    remark(
+        {fmt::format("the solid has {} phases, of gray {}; quality.csv says which a grain "
+                     "belongs to (--phases 1 looks for one only)",
+                     scan_.phases.size(), grays)});
   }
 
   void split() {
@@ -215,15 +332,29 @@ class Segmenter {
       scan_.joined = static_cast<std::uint32_t>(numbers[0]);
       scan_.blocks = {static_cast<std::size_t>(numbers[1]), static_cast<std::int32_t>(numbers[2]),
                       static_cast<std::uint64_t>(numbers[3])};
+      for (std::size_t n = 4; n + 4 < numbers.size(); n += 5) {
+        scan_.waists.push_back(
+            {static_cast<std::uint32_t>(numbers[n]),
+             numbers[n + 1],
+             {static_cast<std::int32_t>(numbers[n + 2]), static_cast<std::int32_t>(numbers[n + 3]),
+              static_cast<std::int32_t>(numbers[n + 4])}});
+      }
       return;
     }
     SplitGrains split = split_grains(scan_.mask, s, &scan_.raw, scan_.levels, scan_.work);
     scan_.labels = std::move(split.labels);
     scan_.joined = split.joined;
     scan_.blocks = split.blocks;
-    store(file_of(ScanStage::split), key_, scan_.labels, scan_.work,
-          {static_cast<double>(split.joined), static_cast<double>(split.blocks.blocks),
-           static_cast<double>(split.blocks.overlap), static_cast<double>(split.blocks.disputed)});
+    scan_.waists = split.waists;
+    numbers = {static_cast<double>(split.joined), static_cast<double>(split.blocks.blocks),
+               static_cast<double>(split.blocks.overlap),
+               static_cast<double>(split.blocks.disputed)};
+    for (const Waist& waist : split.waists) {
+      numbers.push_back(waist.label);
+      numbers.push_back(waist.width);
+      for (const std::int32_t place : waist.voxel) numbers.push_back(place);
+    }
+    store(file_of(ScanStage::split), key_, scan_.labels, scan_.work, numbers);
   }
 
   void choose() {
@@ -233,6 +364,7 @@ class Segmenter {
       name_by_label(scan_.grains, *pieces_);
       remark(label_remarks(scan_.grains, settings_.fewest_voxels));
     }
+    mark_cut_grains();
     scan_.choice = choose_grains(scan_.grains, settings_.keep_border, settings_.fewest_voxels);
     if (!scan_.choice.kept.empty()) return;
     throw Error{
@@ -259,6 +391,8 @@ const char* name_of(ScanStage stage) {
   switch (stage) {
     case ScanStage::read:
       return "read";
+    case ScanStage::specimen:
+      return "specimen";
     case ScanStage::denoise:
       return "denoise";
     case ScanStage::threshold:

@@ -11,12 +11,13 @@
 #include "reckon/scan/labels.hpp"
 #include "reckon/scan/scan_avatars.hpp"
 #include "reckon/scan/segmentation.hpp"
+#include "reckon/scan/specimen.hpp"
 #include "reckon/scan/volume_file.hpp"
 
 namespace reckon {
 
 /// The stages from a volume to labelled grains, in order.
-enum class ScanStage : std::uint8_t { read, denoise, threshold, split, choose };
+enum class ScanStage : std::uint8_t { read, specimen, denoise, threshold, split, choose };
 
 struct SegmentSettings {
   VolumeRequest volume;
@@ -24,6 +25,7 @@ struct SegmentSettings {
   std::int32_t overlap{0};     ///< Workspace::overlap
   bool labelled{false};        ///< the volume holds labels already
   std::filesystem::path gray;  ///< with `labelled`: the gray volume of these labels, if there is
+  SpecimenSettings specimen;
   DenoiseSettings denoise;
   MaskSettings mask;
   SplitSettings split;
@@ -34,13 +36,17 @@ struct SegmentSettings {
 /// Everything that the avatars are made of, and what became of the rest.
 struct Segmentation {
   Workspace work;
-  GrayOnDisk raw;
+  GrayOnDisk raw;     ///< as scanned, where nothing had to be cleaned
+  MaskOnDisk outer;   ///< Specimen::outer
+  MaskOnDisk inside;  ///< Specimen::inside
   GrayOnDisk denoised;
   MaskOnDisk mask;
   LabelsOnDisk labels;
   GrayLevels levels;
-  double solid_share{0};    ///< of the volume
-  std::uint32_t joined{0};  ///< pieces that were put together again
+  double solid_share{0};       ///< of the volume
+  std::vector<double> phases;  ///< grays of solid, if there are several
+  std::uint32_t joined{0};     ///< pieces that were put together again
+  std::vector<Waist> waists;
   BlockFigures blocks;
   std::vector<LabelledGrain> grains;
   GrainChoice choice;
@@ -63,5 +69,9 @@ struct Segmentation {
 /// Pictures of slice `k` across z: the gray values; with the surface of the mask; with the grains
 /// in colours. What is not there yet gets no picture.
 void write_slices(const Segmentation& scan, std::int32_t k, const std::filesystem::path& folder);
+
+/// A picture of a place across z, enlarged: the grains in colours, with a cross at the voxel.
+void write_place(const Segmentation& scan, const VoxelDims& voxel,
+                 const std::filesystem::path& file);
 
 }  // namespace reckon

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -39,6 +40,7 @@ struct Pass {
   float depth;
   double width;   // over the depth of the shallower piece
   bool is_solid;  // as the gray values tell
+  VoxelDims place;
 };
 
 // What lies less deep is darkened by the surface's own blur.
@@ -77,7 +79,14 @@ void NeckJoiner::add(const LabelVolume& pieces, const GrayVolume& depth, const G
     if (a == b || a == 0) return;
     Face& face = faces_[{a, b}];
     const float here = std::min(depth.values[v], depth.values[w]);
-    face.depth = std::max(face.depth, here);
+    if (here > face.depth) {
+      face.depth = here;
+      const auto row = static_cast<std::size_t>(pieces.dims[0]);
+      const std::size_t layer = row * static_cast<std::size_t>(pieces.dims[1]);
+      face.place = {pieces.low[0] + static_cast<std::int32_t>(v % row),
+                    pieces.low[1] + static_cast<std::int32_t>(v % layer / row),
+                    pieces.low[2] + static_cast<std::int32_t>(v / layer)};
+    }
     if (gray != nullptr && here >= gray_depth) {
       face.gray.add(0.5 * (gray->values[v] + gray->values[w]));
     }
@@ -101,6 +110,8 @@ JoinedPieces NeckJoiner::join(const NeckRules& rules) const {
   for (const auto& [pair, face] : faces_) {
     const auto& [a, b] = pair;
     bool is_solid = false;
+    const double brighter = std::max(solid_of(a), solid_of(b)) - rules.void_gray;
+    if (std::abs(solid_of(a) - solid_of(b)) > rules.other_mineral * brighter) continue;
     if (face.gray.count >= fewest_in_neck) {
       const double solid = 0.5 * (solid_of(a) + solid_of(b));
       const double missing = (solid - face.gray.value()) / (solid - rules.void_gray);
@@ -108,7 +119,7 @@ JoinedPieces NeckJoiner::join(const NeckRules& rules) const {
     }
     const double width =
         static_cast<double>(face.depth) / std::min(pieces_[a].peak, pieces_[b].peak);
-    passes.push_back({a, b, face.depth, width, is_solid});
+    passes.push_back({a, b, face.depth, width, is_solid, face.place});
   }
   std::stable_sort(passes.begin(), passes.end(),
                    [](const Pass& p, const Pass& q) { return p.width > q.width; });
@@ -124,6 +135,7 @@ JoinedPieces NeckJoiner::join(const NeckRules& rules) const {
     sets.join(std::min(a, b), std::max(a, b));
     peak[std::min(a, b)] = std::max(peak[a], peak[b]);
     ++result.joined;
+    result.waists.push_back({pass.a, pass.width, pass.place});
   }
   result.label.resize(pieces_.size());
   for (std::uint32_t p = 0; p < result.label.size(); ++p) result.label[p] = sets.find(p);

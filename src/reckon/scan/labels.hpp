@@ -24,14 +24,25 @@ struct NeckRules {
   /// that merely touch leave void there, however blurred.
   double largest_void{0.03};
   double narrow{0.7};
+  /// Pieces whose own solids differ by more than this share of the brighter one's step from void
+  /// are different minerals, and are never joined.
+  double other_mineral{0.3};
   double void_gray{0};
   double solid_gray{1};  ///< of pieces too small to tell their own
+};
+
+/// Where two pieces were joined.
+struct Waist {
+  std::uint32_t label{0};  ///< of a piece; of the grain, once grains have their labels
+  double width{0};         ///< over the smaller piece's, as in NeckRules
+  VoxelDims voxel{};       ///< the deepest in the neck
 };
 
 /// Which pieces hang together.
 struct JoinedPieces {
   std::vector<std::uint32_t> label;  ///< by piece: the lowest number of those joined to it
   std::uint32_t joined{0};           ///< pieces that were joined to others
+  std::vector<Waist> waists;         ///< one for each join
 };
 
 /// Joins pieces that no neck divides, at the widest first. Takes a volume from its first layer to
@@ -57,7 +68,8 @@ class NeckJoiner {
   };
   struct Face {
     float depth{0};  // at its deepest
-    Mean gray;       // well inside the solid
+    VoxelDims place{};
+    Mean gray;  // well inside the solid
   };
   struct Piece {
     float peak{0};
@@ -73,6 +85,8 @@ class Renumbering {
   /// The next layers of a volume; layers may come again.
   void apply(LabelVolume& labels);
   [[nodiscard]] std::uint32_t count() const { return count_; }
+  /// The new number of a label that was seen.
+  [[nodiscard]] std::uint32_t number_of(std::uint32_t label) const { return number_[label]; }
 
  private:
   std::vector<std::uint32_t> number_;

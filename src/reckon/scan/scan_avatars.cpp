@@ -64,6 +64,7 @@ AvatarQuality judge(const Shape& shape, const GrainSurface& surface, const Trian
   quality.gray_volume = surface.gray_volume;
   quality.volume = shape.mass.volume;
   quality.level = surface.level;
+  quality.solid_gray = surface.solid_gray;
   const LevelSetView grid{shape.level_set};
   for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
     const double slope = norm(grid.sample(shape.nodes.position(n)).gradient_body);

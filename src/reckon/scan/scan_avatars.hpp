@@ -27,6 +27,7 @@ struct AvatarQuality {
   double gray_volume{0};        ///< of its solid shares [m^3]
   double volume{0};             ///< of the avatar [m^3]
   double level{0};              ///< solid share at its surface
+  double solid_gray{0};         ///< deep inside it
   double gradient_error{0};     ///< mean of ||grad phi| - 1| at its nodes
   double surface_distance{0};   ///< root mean square of phi on the scanned surface [m]
   double area_kept{0};          ///< area that contact sees over that of the scanned surface

@@ -25,6 +25,7 @@ constexpr double distinct_axes = 0.05;  // relative difference of moments
 /// Which avatar stands for which true grain.
 struct Matching {
   std::map<std::uint32_t, std::uint32_t> avatar_of;  // true grain -> place of its avatar
+  std::map<std::uint32_t, std::uint32_t> most_in;    // avatar -> true grain that it has most of
   std::uint32_t split{0};
   std::uint32_t joined{0};
 };
@@ -52,15 +53,25 @@ Matching match(const ScanTruth& truth, const ScannedAssembly& assembly, const La
   Matching matching;
   std::map<std::uint32_t, int> parts_of_truth;
   std::map<std::uint32_t, int> parts_of_label;
+  const auto share_of = [&](std::uint64_t count, std::uint64_t size) {
+    return static_cast<double>(count) / static_cast<double>(size);
+  };
   for (const auto& [pair, count] : shared) {
-    const double of_truth =
-        static_cast<double>(count) / static_cast<double>(truth_size[pair.first]);
-    const double of_label =
-        static_cast<double>(count) / static_cast<double>(label_size[pair.second]);
-    if (of_truth >= some_share) ++parts_of_truth[pair.first];
-    if (of_truth >= some_share) ++parts_of_label[pair.second];
+    if (share_of(count, truth_size[pair.first]) < some_share) continue;
+    ++parts_of_truth[pair.first];
+    ++parts_of_label[pair.second];
+  }
+  std::map<std::uint32_t, std::uint64_t> most;
+  for (const auto& [pair, count] : shared) {
     const auto avatar = avatar_of_label.find(pair.second);
-    if (of_truth > 0.5 && of_label > 0.5 && avatar != avatar_of_label.end()) {
+    if (avatar == avatar_of_label.end()) continue;
+    if (count > most[avatar->second]) {
+      most[avatar->second] = count;
+      matching.most_in[avatar->second] = pair.first - 1;
+    }
+    const bool whole = share_of(count, truth_size[pair.first]) > 0.5 &&
+                       share_of(count, label_size[pair.second]) > 0.5;
+    if (whole && parts_of_truth[pair.first] == 1 && parts_of_label[pair.second] == 1) {
       matching.avatar_of[pair.first - 1] = avatar->second;
     }
   }
@@ -99,23 +110,28 @@ SurfaceErrors compare_surfaces(const ShapeView& shape, const GrainState& grain,
   return {errors.distance / weight, errors.angle / weight};
 }
 
+/// `shown`: by true grain, whether the scan shows it whole. A contact of a grain that was lost,
+/// split or joined is a contact missed.
 void compare_contacts(const ScanTruth& truth, const ScannedAssembly& assembly,
-                      const Matching& matching, TruthFigures& figures) {
+                      const Matching& matching, const std::vector<bool>& shown,
+                      TruthFigures& figures) {
   std::map<std::uint32_t, std::uint32_t> truth_of;
   for (const auto& [grain, avatar] : matching.avatar_of) truth_of[avatar] = grain;
   std::set<std::pair<std::uint32_t, std::uint32_t>> real;
   for (const NearPair& pair : near_surfaces(shape_views(truth.shapes), truth.grains, 0)) {
-    if (matching.avatar_of.contains(pair.a) && matching.avatar_of.contains(pair.b)) {
-      real.insert({pair.a, pair.b});
-    }
+    if (shown[pair.a] && shown[pair.b]) real.insert({pair.a, pair.b});
   }
+  const auto is_cut = [&](std::uint32_t avatar) {
+    const auto grain = matching.most_in.find(avatar);
+    return grain != matching.most_in.end() && !shown[grain->second];
+  };
   figures.true_contacts = static_cast<std::uint32_t>(real.size());
   for (const ScannedContact& contact : assembly.contacts) {
-    if (!contact.touching) continue;
+    if (!contact.touching || is_cut(contact.pair.a) || is_cut(contact.pair.b)) continue;
+    ++figures.found_contacts;
     const auto a = truth_of.find(contact.pair.a);
     const auto b = truth_of.find(contact.pair.b);
     if (a == truth_of.end() || b == truth_of.end()) continue;
-    ++figures.found_contacts;
     figures.right_contacts += real.contains(std::minmax(a->second, b->second)) ? 1U : 0U;
   }
 }
@@ -139,8 +155,11 @@ TruthFigures compare_with_truth(const ScanTruth& truth, const ScannedAssembly& a
   }
   const Matching matching = match(truth, assembly, labels, work);
   TruthFigures figures;
-  for (const LabelledGrain& grain : measure_labels(truth.labels, work)) {
-    figures.grains += grain.voxels > 0 && !grain.on_border ? 1 : 0;
+  std::vector<bool> shown(truth.grains.size(), false);
+  const auto grains = measure_labels(truth.labels, work);
+  for (std::size_t n = 0; n < std::min(grains.size(), shown.size()); ++n) {
+    shown[n] = grains[n].voxels > 0 && !grains[n].on_border;
+    figures.grains += shown[n] ? 1U : 0U;
   }
   figures.found_once = static_cast<std::uint32_t>(matching.avatar_of.size());
   figures.split = matching.split;
@@ -186,7 +205,7 @@ TruthFigures compare_with_truth(const ScanTruth& truth, const ScannedAssembly& a
     figures.normal_error += errors.angle / count;
   }
   if (axes > 0) figures.axis_error /= axes;
-  compare_contacts(truth, assembly, matching, figures);
+  compare_contacts(truth, assembly, matching, shown, figures);
   return figures;
 }
 

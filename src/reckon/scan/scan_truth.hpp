@@ -19,10 +19,11 @@ struct ScanTruth {
 
 /// How near the avatars come to the truth. Means are over the grains that were found once.
 struct TruthFigures {
-  std::uint32_t grains{0};          ///< true grains that the scan shows whole
-  std::uint32_t found_once{0};      ///< of those: one avatar shares more than half of both voxels
+  std::uint32_t grains{0};  ///< true grains that the scan shows whole
+  /// Of those: one avatar shares more than half of both voxels, and neither is split or joined.
+  std::uint32_t found_once{0};
   std::uint32_t split{0};           ///< several avatars share a tenth of it or more
-  std::uint32_t joined{0};          ///< its avatar shares a tenth of another grain or more
+  std::uint32_t joined{0};          ///< labels that hold a tenth of several grains or more
   double voxels_per_diameter{0};    ///< of the mean grain
   double volume_error{0};           ///< mean of V / V_true - 1
   double volume_error_absolute{0};  ///< mean of |V / V_true - 1|
@@ -31,9 +32,9 @@ struct TruthFigures {
   double axis_error{0};     ///< mean angle of the long axes where moments tell them apart [rad]
   double surface_error{0};  ///< mean |phi_true| at the avatars' nodes [voxels]
   double normal_error{0};   ///< mean angle to the true normal at the avatars' nodes [rad]
-  std::uint32_t true_contacts{0};   ///< between grains found once
-  std::uint32_t found_contacts{0};  ///< likewise
-  std::uint32_t right_contacts{0};  ///< both
+  std::uint32_t true_contacts{0};   ///< between grains that the scan shows whole, found or not
+  std::uint32_t found_contacts{0};  ///< of avatars, but for those of grains that are cut off
+  std::uint32_t right_contacts{0};  ///< of grains found once, both
 
   [[nodiscard]] double recall() const;
   [[nodiscard]] double precision() const;

@@ -41,9 +41,15 @@ struct ScannedBody {
   double radius{0};
   double lipschitz{1};
   std::uint32_t label{0};
+  double gray{1};     // of its solid
+  Vec3 crack_normal;  // zero: it has none
+  double half_crack{0};
 
   /// The level set at a point of the volume; infinite outside the grid, where nothing is solid.
   [[nodiscard]] double phi(const Vec3& world) const {
+    if (half_crack > 0 && std::abs(dot(world - position, crack_normal)) < half_crack) {
+      return std::numeric_limits<double>::infinity();
+    }
     const LevelSetView::Sample sample = grid.sample(transposed_times(to_world, world - position));
     return sample.inside_grid ? sample.phi : std::numeric_limits<double>::infinity();
   }
@@ -75,6 +81,8 @@ void fill_layer(const std::vector<ScannedBody>& bodies, bool partial_volume, std
   const bool labelled = labels.holds(0, 0, k);
   std::vector<std::uint64_t> points(layer, 0);
   std::vector<double> deepest(layer, 0);
+  std::vector<double> nearest(layer, std::numeric_limits<double>::infinity());
+  std::vector<float> solid(layer, 1);
   const double z = (k + 0.5) * voxel;
   for (const ScannedBody& body : bodies) {
     const double reach = body.radius + voxel;
@@ -92,11 +100,19 @@ void fill_layer(const std::vector<ScannedBody>& bodies, bool partial_volume, std
         const double phi = body.phi(center);
         if (phi > half_diagonal && std::isfinite(phi)) continue;
         const std::size_t at = gray.index(i, j, gray.low[2]);
-        const bool near_surface = !(phi < -half_diagonal) && partial_volume;
+        const bool near_crack =
+            body.half_crack > 0 &&
+            std::abs(dot(center - body.position, body.crack_normal)) < body.half_crack + voxel;
+        const bool near_surface = (near_crack || !(phi < -half_diagonal)) && partial_volume;
         if (near_surface) {
           points[at] |= solid_points(body, center, voxel);
         } else if (phi < 0) {
           points[at] = ~std::uint64_t{0};
+        }
+        // A voxel of two minerals takes the gray of the one that it lies deeper in.
+        if (phi < nearest[at]) {
+          nearest[at] = phi;
+          solid[at] = static_cast<float>(body.gray);
         }
         if (phi < deepest[at]) {
           deepest[at] = phi;
@@ -106,8 +122,67 @@ void fill_layer(const std::vector<ScannedBody>& bodies, bool partial_volume, std
     }
   }
   for (std::size_t at = 0; at < layer; ++at) {
-    gray.values[first + at] = static_cast<float>(std::popcount(points[at])) / 64.0F;
+    gray.values[first + at] = solid[at] * static_cast<float>(std::popcount(points[at])) / 64.0F;
   }
+}
+
+/// Distance of a voxel's centre from the volume's axis [voxels].
+double from_axis(const VoxelDims& dims, std::int32_t i, std::int32_t j) {
+  return std::hypot(i + 0.5 - 0.5 * dims[0], j + 0.5 - 0.5 * dims[1]);
+}
+
+/// Tube and floor, with the share of each voxel that they fill.
+void add_container(GrayVolume& gray, const ScanArtefacts& artefacts, double tube_radius,
+                   double floor_top) {
+  const auto share = [](double depth) { return std::clamp(depth + 0.5, 0.0, 1.0); };
+  for_each_voxel(gray.box(), [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+    float& value = gray.values[gray.index(i, j, k)];
+    const double r = from_axis(gray.dims, i, j);
+    if (artefacts.tube > 0) {
+      const double filled =
+          share(r - tube_radius) * share(tube_radius + ScannerSettings::tube_width - r);
+      value = std::max(value, static_cast<float>(artefacts.tube * filled));
+    }
+    const bool beside_tube = artefacts.tube > 0 && r > tube_radius;
+    if (artefacts.floor > 0 && !beside_tube) {
+      const double filled =
+          share(floor_top - k - 0.5) * share(k + 0.5 - floor_top + ScannerSettings::tube_width);
+      value = std::max(value, static_cast<float>(artefacts.floor * filled));
+    }
+  });
+}
+
+/// Cupping, shading and rings, on gray values without noise.
+void shade(GrayVolume& gray, const ScannerSettings& settings) {
+  const ScanArtefacts& a = settings.artefacts;
+  const double step = settings.solid_gray - settings.void_gray;
+  const double black = settings.void_gray / step;  // below void
+  const double radius = 0.5 * std::hypot(gray.dims[0], gray.dims[1]);
+  std::vector<double> ring(static_cast<std::size_t>(radius) + 2, 0);
+  for (std::size_t n = 0; a.rings > 0 && n < ring.size(); ++n) {
+    RandomStream random{settings.seed, RandomPurpose::other, n};
+    ring[n] = a.rings * standard_normal(random);
+  }
+  for_each_voxel(gray.box(), [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+    float& stored = gray.values[gray.index(i, j, k)];
+    const double r = from_axis(gray.dims, i, j);
+    const double across = (i + 0.5) / gray.dims[0] - 0.5;
+    double value = black + static_cast<double>(stored);
+    if (a.cupping > 0) value *= 1 - a.cupping * (1 - r * r / (radius * radius));
+    if (a.gain_shading > 0) value *= 1 + a.gain_shading * across;
+    if (a.shading > 0) value += a.shading * across;
+    value += ring[static_cast<std::size_t>(r)];
+    stored = static_cast<float>(value - black);
+  });
+}
+
+void cut_circle(GrayVolume& gray, double circle_gray) {
+  const double radius = 0.5 * std::min(gray.dims[0], gray.dims[1]);
+  for_each_voxel(gray.box(), [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+    if (from_axis(gray.dims, i, j) > radius) {
+      gray.values[gray.index(i, j, k)] = static_cast<float>(circle_gray);
+    }
+  });
 }
 
 /// From solid shares to gray values, before the point spread function.
@@ -164,6 +239,22 @@ void ScannerSettings::validate() const {
   require(noise >= 0 && noise <= 1, "the noise", noise, "0 to 1");
   require(beam_hardening >= 0 && beam_hardening <= 0.5, "the beam hardening", beam_hardening,
           "0 to 0.5");
+  const ScanArtefacts& a = artefacts;
+  require(a.tube >= 0 && a.tube <= 10, "the gray of the tube", a.tube, "0 to 10");
+  require(a.floor >= 0 && a.floor <= 10, "the gray of the floor", a.floor, "0 to 10");
+  require(std::isfinite(a.circle_gray), "the gray outside the circle", a.circle_gray, "a number");
+  require(std::abs(a.shading) <= 10, "the shading", a.shading, "-10 to 10");
+  require(std::abs(a.gain_shading) <= 1, "the shading of the gain", a.gain_shading, "-1 to 1");
+  require(a.cupping >= 0 && a.cupping <= 0.9, "the cupping", a.cupping, "0 to 0.9");
+  require(a.rings >= 0 && a.rings <= 1, "the rings", a.rings, "0 to 1");
+  require(a.mineral_share >= 0 && a.mineral_share <= 1, "the share of the other mineral",
+          a.mineral_share, "0 to 1");
+  require(a.mineral_gray > 0 && a.mineral_gray <= 10, "the gray of the other mineral",
+          a.mineral_gray, "above 0, to 10");
+  require(a.crack_share >= 0 && a.crack_share <= 1, "the share of cracked grains", a.crack_share,
+          "0 to 1");
+  require(a.crack_width > 0 && a.crack_width <= 20, "the width of the cracks", a.crack_width,
+          "above 0, to 20 voxels");
   require(std::isfinite(void_gray) && std::isfinite(solid_gray) && solid_gray > void_gray,
           "the gray of solid", solid_gray, "more than the gray of void");
 }
@@ -197,19 +288,52 @@ Scanner::Scanner(const std::vector<GrainState>& grains, const ReadShape& read_sh
             "what makes fewer than 2^31 voxels");
     dims_[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(cells);
   }
+  const ScanArtefacts& artefacts = settings.artefacts;
   const double margin = settings.margin * settings.voxel;
   const Vec3 corner = low - Vec3{margin, margin, margin};
   for (GrainState& grain : grains_) {
     const Shape& shape = shapes_.at(grain.shape);
     grain.position -= corner;
     grain.orientation = normalized(grain.orientation);
-    bodies_.push_back({shape.level_set, rotation_matrix(grain.orientation), grain.position,
-                       shape.bounding_radius, shape.lipschitz,
-                       static_cast<std::uint32_t>(bodies_.size() + 1)});
+    bodies_.push_back({shape.level_set,
+                       rotation_matrix(grain.orientation),
+                       grain.position,
+                       shape.bounding_radius,
+                       shape.lipschitz,
+                       static_cast<std::uint32_t>(bodies_.size() + 1),
+                       1.0,
+                       {},
+                       0.0});
+    ScannedBody& body = bodies_.back();
+    RandomStream random{settings.seed, RandomPurpose::other,
+                        body.label + (std::uint64_t{1} << 32U)};
+    if (random.uniform() < artefacts.mineral_share) body.gray = artefacts.mineral_gray;
+    if (random.uniform() < artefacts.crack_share) {
+      body.crack_normal = normalized(
+          Vec3{standard_normal(random), standard_normal(random), standard_normal(random)});
+      body.half_crack = 0.5 * artefacts.crack_width * settings.voxel;
+    }
   }
+  if (artefacts.tube > 0 || artefacts.floor > 0) place_container();
 }
 
 Scanner::~Scanner() = default;
+
+/// The tube touches the outermost node about the axis, the floor the lowest.
+void Scanner::place_container() {
+  const double voxel = settings_.voxel;
+  floor_top_ = dims_[2];
+  for (const GrainState& grain : grains_) {
+    const Shape& shape = shapes_.at(grain.shape);
+    const Mat3 rotation = rotation_matrix(grain.orientation);
+    for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
+      const Vec3 world = (rotation * shape.nodes.position(n) + grain.position) / voxel;
+      tube_radius_ =
+          std::max(tube_radius_, std::hypot(world.x - 0.5 * dims_[0], world.y - 0.5 * dims_[1]));
+      floor_top_ = std::min(floor_top_, world.z);
+    }
+  }
+}
 
 std::int32_t Scanner::margin() const { return blur_reach(settings_.blur); }
 
@@ -220,10 +344,19 @@ ScannedLayers Scanner::scan(const Box& slab) const {
     fill_layer(bodies_, settings_.partial_volume, gray.low[2] + static_cast<std::int32_t>(layer),
                gray, labels);
   });
+  const ScanArtefacts& artefacts = settings_.artefacts;
+  if (artefacts.tube > 0 || artefacts.floor > 0) {
+    add_container(gray, artefacts, tube_radius_, floor_top_);
+  }
   if (settings_.beam_hardening > 0) harden_beam(gray, settings_.beam_hardening);
   blur_volume(gray, settings_.blur);
   trim(gray, slab);
+  if (artefacts.cupping > 0 || artefacts.shading > 0 || artefacts.gain_shading > 0 ||
+      artefacts.rings > 0) {
+    shade(gray, settings_);
+  }
   add_noise(gray, settings_);
+  if (artefacts.circle > 0) cut_circle(gray, artefacts.circle_gray);
   return {std::move(gray), std::move(labels)};
 }
 

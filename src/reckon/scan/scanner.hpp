@@ -13,11 +13,27 @@
 
 namespace reckon {
 
+/// What spoils scans, in units of the step from void to solid; 0 or less: absent.
+struct ScanArtefacts {
+  double tube{0};          ///< gray of a tube around the grains, which the outermost touch
+  double floor{0};         ///< gray of a floor under the grains, which the lowest touch
+  double circle{0};        ///< 1: outside a circle of reconstruction the gray is constant
+  double circle_gray{0};   ///< that gray, as it stands in the volume
+  double shading{0};       ///< added to the gray along x, from one side to the other
+  double gain_shading{0};  ///< share by which the gray above black changes along x, in the same way
+  double cupping{0};       ///< share of the gray above black that the axis loses, void included
+  double rings{0};         ///< deviation of rings about the axis
+  double mineral_share{0};  ///< of the grains, that are of another mineral
+  double mineral_gray{0.4};
+  double crack_share{0};  ///< of the grains, that have a plane crack through the middle
+  double crack_width{1};  ///< [voxels]
+};
+
 /// What a scanner does to the solid that it sees. Gray values are in units of the step from void to
 /// solid.
 struct ScannerSettings {
   double voxel{0};            ///< edge of a voxel [m]
-  double margin{4};           ///< void around the grains [voxels]
+  double margin{4};           ///< void around the grains; a tube or a floor needs more [voxels]
   bool partial_volume{true};  ///< a voxel's value is its solid share; else its centre decides
   double blur{0.8};           ///< standard deviation of the point spread function [voxels]
   double noise{0.05};         ///< standard deviation of the white noise
@@ -25,6 +41,9 @@ struct ScannerSettings {
   double void_gray{10000};
   double solid_gray{40000};
   std::uint64_t seed{1};
+  ScanArtefacts artefacts;
+
+  static constexpr double tube_width = 5;  ///< of tube and floor [voxels]
 
   /// Throws Error naming the setting that is out of range.
   void validate() const;
@@ -52,6 +71,9 @@ struct ScannedBody;
 /// 3. The point spread function, a Gaussian.
 /// 4. White Gaussian noise, a function of seed and voxel.
 ///
+/// Artefacts: minerals, cracks, tube and floor come before the point spread function; cupping,
+/// shading, rings and the circle behind it.
+///
 /// The volume holds all grains and a margin. Any part of it can be scanned alone, with the bits of
 /// the whole.
 class Scanner {
@@ -73,11 +95,15 @@ class Scanner {
   [[nodiscard]] ScannedLayers scan(const Box& slab) const;
 
  private:
+  void place_container();
+
   ScannerSettings settings_;
   VoxelDims dims_{0, 0, 0};
   std::vector<GrainState> grains_;
   std::map<ShapeId, Shape> shapes_;
   std::vector<ScannedBody> bodies_;
+  double tube_radius_{0};  // its inner surface about the volume's axis [voxels]
+  double floor_top_{0};    // [voxels]
 };
 
 /// All of a scan, and what is known of it.

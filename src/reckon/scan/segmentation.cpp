@@ -9,6 +9,7 @@
 #include "reckon/core/error.hpp"
 #include "reckon/scan/gray_statistics.hpp"
 #include "reckon/scan/image_filters.hpp"
+#include "reckon/scan/phases.hpp"
 
 namespace reckon {
 namespace {
@@ -63,21 +64,38 @@ GrayLevels levels_of(const GrayOnDisk& gray, const MaskOnDisk& mask, double thre
       gray, [&](const GrayVolume& part) { return mask.read(part.box()); }, threshold, work);
 }
 
-SolidMask find_solid(const GrayOnDisk& gray, const MaskSettings& settings, const Workspace& work) {
-  const double first = settings.threshold ? *settings.threshold : otsu_threshold(gray, work);
+SolidMask find_solid(const GrayOnDisk& gray, const MaskSettings& settings, const Workspace& work,
+                     const MaskOnDisk& inside) {
+  GrayPhases phases;
+  if (!settings.threshold && settings.phases != 1) phases = find_phases(gray, inside, work);
+  const bool several = phases.solid.size() > 1;
+  const bool has_faint = phases.faint().has_value();
+  // Of several phases the most common one gives the levels.
+  const double first = settings.threshold ? *settings.threshold
+                       : has_faint        ? 0.5 * (phases.void_gray + phases.main)
+                                          : otsu_threshold(gray, work);
   SolidMask solid;
+  if (several) solid.phases = phases.solid;
   solid.levels = phase_levels(
       gray, [&](const GrayVolume& part) { return above(part, first); }, first, work);
   if (!settings.threshold) {
+    // The faint phase lies among what is taken for void here.
+    if (has_faint) solid.levels = {first, phases.void_gray, phases.main};
     solid.levels.threshold = 0.5 * (solid.levels.void_gray + solid.levels.solid_gray);
   }
   solid.mask = MaskOnDisk{gray.dims(), gray.voxel(), work.folder};
   const auto radius = static_cast<std::int32_t>(settings.open_radius);
   std::uint64_t count = 0;
   // Voids inside grains are not larger than grains.
-  const std::int32_t overlap = 2 * radius + (settings.fill ? work.grain_overlap() : 0);
+  const std::int32_t overlap =
+      2 * radius + (settings.fill ? work.grain_overlap() : 0) + (has_faint ? faint_reach : 0);
   for (const Block& block : work.blocks(gray.dims(), overlap)) {
-    MaskVolume mask = above(gray.read(block.whole), solid.levels.threshold);
+    const GrayVolume part = gray.read(block.whole);
+    MaskVolume mask = above(part, solid.levels.threshold);
+    if (has_faint) {
+      const MaskVolume more = faint_solid(part, phases);
+      for (std::size_t v = 0; v < mask.values.size(); ++v) mask.values[v] |= more.values[v];
+    }
     if (settings.fill) mask = holes_filled(mask);
     if (radius > 0) mask = opened(mask, settings.open_radius);
     solid.mask.write(mask, block.core);

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reckon/scan/blocks.hpp"
 #include "reckon/scan/disk_volume.hpp"
+#include "reckon/scan/labels.hpp"
 
 namespace reckon {
 
@@ -23,6 +25,7 @@ struct MaskSettings {
   std::optional<double> threshold;  ///< absent: found from the gray values
   bool fill{true};                  ///< voids inside grains become solid
   std::uint32_t open_radius{0};     ///< of the ball that opens the mask; 0: none [voxels]
+  std::uint32_t phases{0};  ///< of solid that are looked for: 1, or 0 for as many as there are
 };
 
 struct SplitSettings {
@@ -52,12 +55,15 @@ struct GrayLevels {
 struct SolidMask {
   MaskOnDisk mask;
   GrayLevels levels;
+  std::vector<double> phases;  ///< grays of solid, rising; one unless several were found
 };
 /// Void and solid. Without a given threshold, Otsu's comes first; the means of what lies more than
 /// 2.5 voxels from its surface are the gray levels, and half way between them is the threshold.
+/// Where the gray values have several plateaus of solid (phases.hpp), a faint one has its own.
 /// Throws Error when there is no solid or no void.
+/// `inside`: what of the volume counts for the phases; empty: all.
 [[nodiscard]] SolidMask find_solid(const GrayOnDisk& gray, const MaskSettings& settings,
-                                   const Workspace& work);
+                                   const Workspace& work, const MaskOnDisk& inside = {});
 
 /// How a volume was split that is larger than memory.
 struct BlockFigures {
@@ -67,8 +73,9 @@ struct BlockFigures {
 };
 
 struct SplitGrains {
-  LabelsOnDisk labels;      ///< consecutive from 1, in the order of their first voxels
-  std::uint32_t joined{0};  ///< pieces that NeckJoiner put together again
+  LabelsOnDisk labels;        ///< consecutive from 1, in the order of their first voxels
+  std::uint32_t joined{0};    ///< pieces that NeckJoiner put together again
+  std::vector<Waist> waists;  ///< where, by label
   BlockFigures blocks;
 };
 /// Watershed of the depth below the surface, block by block: a piece is that of the block in whose

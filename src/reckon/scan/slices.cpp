@@ -108,4 +108,31 @@ void write_slices(const Segmentation& scan, std::int32_t k, const std::filesyste
   });
 }
 
+void write_place(const Segmentation& scan, const VoxelDims& voxel,
+                 const std::filesystem::path& file) {
+  constexpr std::int32_t half = 32;  // of the picture's edge [voxels]
+  constexpr std::int32_t enlarged = 5;
+  Box box = Box{voxel, {1, 1, 1}}.widened(half, scan.labels.box());
+  box.low[2] = voxel[2];
+  box.dims[2] = 1;
+  const GrayVolume gray = scan.raw.read(box);
+  const LabelVolume labels = scan.labels.read(box);
+  const Brightness brightness{gray};
+  draw(file, {enlarged * box.dims[0], enlarged * box.dims[1], 1},
+       [&](std::int32_t u, std::int32_t v) {
+         const std::int32_t i = box.low[0] + u / enlarged;
+         const std::int32_t j = box.low[1] + v / enlarged;
+         const std::int32_t a = std::abs(i - voxel[0]);
+         const std::int32_t b = std::abs(j - voxel[1]);
+         const bool on_cross = (a == 0 || b == 0) && a + b > 2 && a + b < 7;
+         if (on_cross) return Colour{1, 1, 1};
+         const double bright = brightness(i, j);
+         const std::uint32_t label = labels.values[labels.index(i, j, box.low[2])];
+         if (label == 0) return Colour{bright, bright, bright};
+         const Colour colour = colour_of_label(label);
+         const double b_of = 0.25 + 0.75 * bright;
+         return Colour{colour[0] * b_of, colour[1] * b_of, colour[2] * b_of};
+       });
+}
+
 }  // namespace reckon

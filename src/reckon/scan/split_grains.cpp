@@ -123,7 +123,8 @@ void refuse_blob(const LabelsOnDisk& labels, std::uint64_t solid, const Workspac
     if (!all_through || 2 * grain.voxels <= solid) continue;
     fail("most of the solid is one blob that reaches all through the volume",
          fmt::format("it has {} of {} solid voxels", grain.voxels, solid),
-         "Give a higher --threshold, a lower --neck or a lower --rise, and look at the preview.");
+         "If void is brighter than the grains, give --invert. Otherwise give a higher --threshold, "
+         "a lower --neck or a lower --rise, and look at the preview.");
   }
 }
 
@@ -164,6 +165,10 @@ SplitGrains split_grains(const MaskOnDisk& mask, const SplitSettings& settings,
     for (std::uint32_t& label : labels.values) label = joined.label[label];
     grains.apply(labels);
     split.labels.write(labels, slab);
+  }
+  for (Waist waist : joined.waists) {
+    waist.label = grains.number_of(joined.label[waist.label]);
+    split.waists.push_back(waist);
   }
   refuse_blob(split.labels, pieces.solid, work);
   return split;
