@@ -79,7 +79,7 @@ TEST(LegacyMorphology, AVoxelLengthScalesEverything) {
   EXPECT_NEAR(half.nodes.area[10] / one.nodes.area[10], 0.25, 1e-12);
   test::expect_equal(to_legacy(half), ball());
   test::expect_error([] { (void)to_shape(ball(), 0, "ball", LegacyRadius::as_in_file); },
-                     {"voxel", "positive"});
+                     {"voxel", "between"});
 }
 
 TEST(LegacyMorphology, EnclosingRadiusKeepsThePromiseOfShapes) {

@@ -95,7 +95,7 @@ TEST(ClosedSurface, OpenSurfacesAreRefused) {
     const auto end = static_cast<std::uint32_t>(soup.vertices.size());
     soup.triangles.push_back({end - 3, end - 2, end - 1});
   }
-  expect_refused(soup, {"36 edges", "merge vertices"});
+  expect_refused(soup, {"36 edges", "--merge"});
   EXPECT_NO_THROW(require_closed_surface(welded(soup), "welded"));
 }
 
@@ -116,7 +116,7 @@ TEST(ClosedSurface, InconsistentWindingIsRefused) {
 TEST(ClosedSurface, InwardSurfacesAreRefused) {
   TriangleMesh mesh = test::cube();
   for (TriangleMesh::Triangle& t : mesh.triangles) std::swap(t[0], t[1]);
-  expect_refused(mesh, {"inward", "-1 m^3", "Flip"});
+  expect_refused(mesh, {"inward", "-1 m^3", "--repair"});
 }
 
 TEST(ClosedSurface, SeveralPartsAreRefused) {
