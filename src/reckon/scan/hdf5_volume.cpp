@@ -229,8 +229,10 @@ class Hdf5VolumeWriter : public VolumeWriter {
     require(file_->valid());
     const auto extents = extents_of(what.dims);
     const Hdf5Handle space{H5Screate_simple(3, extents.data(), nullptr), H5Sclose};
+    const Hdf5Handle creation{H5Pcreate(H5P_DATASET_CREATE), H5Pclose};
+    H5Pset_obj_track_times(creation.get(), false);  // equal volumes make equal files
     dataset_.emplace(H5Dcreate2(file_->get(), "/volume", stored_type(what.type), space.get(),
-                                H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                                H5P_DEFAULT, creation.get(), H5P_DEFAULT),
                      H5Dclose);
     require(dataset_->valid());
     const Hdf5Handle scalar{H5Screate(H5S_SCALAR), H5Sclose};

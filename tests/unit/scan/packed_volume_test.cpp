@@ -14,6 +14,7 @@
 #include "reckon/core/file.hpp"
 #include "reckon/scan/volume_file.hpp"
 #include "reckon/scan/volume_formats.hpp"
+#include "support/hdf5_at_exit.hpp"
 #include "support/packed_files.hpp"
 #include "support/test_path.hpp"
 
