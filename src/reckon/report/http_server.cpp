@@ -189,8 +189,8 @@ struct HttpServer::Impl {
   void answer_next(Connection& client, std::size_t end, std::size_t ending) {
     const std::string text = client.request.substr(0, end);
     client.request.erase(0, end + ending);
-    const std::optional<Head> head =
-        text.size() <= longest_request ? parse(text) : std::optional<Head>{};
+    if (text.size() > longest_request) return reply(client, {431, {}, {}}, true, true);
+    const std::optional<Head> head = parse(text);
     if (!head) return reply(client, {400, {}, {}}, true, true);
     const bool only_head = head->method == "HEAD";
     if (!only_head && head->method != "GET") return reply(client, {405, {}, {}}, true, true);
