@@ -58,9 +58,10 @@ export class History {
   }
 }
 
-/** String(-0) is "0". */
+/** As the run writes it. String(-0) is "0". */
 function cell(value: number): string {
   if (Number.isNaN(value)) return "";
+  if (!Number.isFinite(value)) return value > 0 ? "inf" : "-inf";
   return Object.is(value, -0) ? "-0" : String(value);
 }
 
