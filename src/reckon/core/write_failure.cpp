@@ -52,7 +52,7 @@ std::string amount(double bytes) {
 /// "the disk at /scratch has 12 kB free of 2 TB"
 std::string disk_of(const fs::path& file) {
   const fs::path folder = folder_of(file);
-  const std::string name = "the disk at " + mount_point_of(folder).string();
+  std::string name = "the disk at " + mount_point_of(folder).string();
   struct statvfs disk {};
   if (::statvfs(folder.c_str(), &disk) != 0) return name;
   const auto block = static_cast<double>(disk.f_frsize);

@@ -63,9 +63,9 @@ std::vector<std::string> cells(const std::string& line) {
 
 }  // namespace
 
-std::string history_header(std::span<const Quantity> quantities) {
+std::string history_header(std::span<const HistoryQuantity> quantities) {
   std::string line;
-  for (const Quantity& quantity : quantities) {
+  for (const HistoryQuantity& quantity : quantities) {
     for (const std::string& column : quantity.columns()) {
       if (!line.empty()) line += ',';
       line += column;
@@ -74,9 +74,9 @@ std::string history_header(std::span<const Quantity> quantities) {
   return line;
 }
 
-std::string history_row(std::span<const Quantity> quantities, const HistoryRow& row) {
+std::string history_row(std::span<const HistoryQuantity> quantities, const HistoryRow& row) {
   std::string line;
-  for (const Quantity& quantity : quantities) {
+  for (const HistoryQuantity& quantity : quantities) {
     for (const Number& number : quantity.numbers(row)) {
       if (!line.empty()) line += ',';
       std::visit([&](auto value) { fmt::format_to(std::back_inserter(line), "{}", value); },
@@ -103,7 +103,7 @@ std::string history_reference_markdown(std::span<const QuantityGroup> groups) {
     page += fmt::format("\n## {}\n\n", group.title);
     if (!group.condition.empty()) page += group.condition + "\n\n";
     page += "| column | unit | meaning |\n|---|---|---|\n";
-    for (const Quantity& quantity : group.quantities) {
+    for (const HistoryQuantity& quantity : group.quantities) {
       for (const std::string& column : quantity.columns()) {
         page += fmt::format("| `{}` | {} | {} |\n", column, quantity.unit, quantity.meaning);
       }
@@ -117,7 +117,7 @@ std::string history_reference_markdown() {
   return history_reference_markdown(quantity_groups({&example, 1}));
 }
 
-HistoryFile::HistoryFile(std::filesystem::path path, std::vector<Quantity> quantities,
+HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryQuantity> quantities,
                          const std::function<bool(std::uint64_t)>& keep)
     : path_{std::move(path)}, quantities_{std::move(quantities)} {
   const std::string header = history_header(quantities_) + '\n';

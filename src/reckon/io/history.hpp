@@ -16,9 +16,10 @@
 namespace reckon {
 
 /// The header of history.csv, without the end of the line.
-[[nodiscard]] std::string history_header(std::span<const Quantity> quantities);
+[[nodiscard]] std::string history_header(std::span<const HistoryQuantity> quantities);
 /// One row, likewise. Numbers are written so that they read back as the same bits.
-[[nodiscard]] std::string history_row(std::span<const Quantity> quantities, const HistoryRow& row);
+[[nodiscard]] std::string history_row(std::span<const HistoryQuantity> quantities,
+                                      const HistoryRow& row);
 
 /// The reference page docs/reference/history.md: a section for each group of the table.
 [[nodiscard]] std::string history_reference_markdown(std::span<const QuantityGroup> groups);
@@ -30,7 +31,7 @@ class HistoryFile {
  public:
   /// Starts a new file, or goes on with the one there: then rows for which `keep(step)` is false
   /// are dropped first. Throws Error when the file cannot be written, or has another header.
-  HistoryFile(std::filesystem::path path, std::vector<Quantity> quantities,
+  HistoryFile(std::filesystem::path path, std::vector<HistoryQuantity> quantities,
               const std::function<bool(std::uint64_t)>& keep = {});
   ~HistoryFile();
   HistoryFile(const HistoryFile&) = delete;
@@ -42,7 +43,7 @@ class HistoryFile {
 
  private:
   std::filesystem::path path_;
-  std::vector<Quantity> quantities_;
+  std::vector<HistoryQuantity> quantities_;
   int descriptor_{-1};
 };
 

@@ -118,7 +118,7 @@ std::optional<std::string> unquoted_quantity(std::string_view bare) {
 
 std::string advice_on_header(std::string_view bare) {
   const auto first = bare.find_first_not_of('[');
-  if (first == std::string_view::npos || first > 2) return {};
+  if (first > 2) return {};  // also where there is nothing else
   const auto last = bare.find_last_not_of(']');
   const std::string_view name = stripped(bare.substr(first, last - first + 1));
   if (name.empty() ||

@@ -29,7 +29,7 @@ std::vector<Number> numbers(const Mat3& tensor) {
 
 /// `get` takes what `part` of a row holds and returns a number, a vector or a tensor.
 template <class Part, class Get>
-Quantity quantity(QuantityName name, Part part, Get get) {
+HistoryQuantity quantity(QuantityName name, Part part, Get get) {
   return {std::move(name), [part, get](const HistoryRow& row) { return numbers(get(part(row))); }};
 }
 
@@ -46,11 +46,11 @@ class Entries {
         {std::move(name), std::move(unit), std::move(meaning), std::move(components)}, part_, get));
     return *this;
   }
-  [[nodiscard]] std::vector<Quantity> take() { return std::move(list_); }
+  [[nodiscard]] std::vector<HistoryQuantity> take() { return std::move(list_); }
 
  private:
   Part part_;
-  std::vector<Quantity> list_;
+  std::vector<HistoryQuantity> list_;
 };
 
 const Measurement& measurement(const HistoryRow& row) { return row.measurement; }
@@ -61,7 +61,7 @@ const CellState& cell(const HistoryRow& row) { return *row.cell; }
 using M = const Measurement&;
 using S = const SampleMeasurement&;
 
-std::vector<Quantity> of_every_run() {
+std::vector<HistoryQuantity> of_every_run() {
   Entries list{whole};
   const auto add = [&](const char* name, const char* unit, const char* meaning, auto get,
                        const Names& components = {}) {
@@ -125,8 +125,8 @@ std::vector<Quantity> of_every_run() {
   return list.take();
 }
 
-std::vector<Quantity> of_walls(std::span<const Wall> walls) {
-  std::vector<Quantity> list;
+std::vector<HistoryQuantity> of_walls(std::span<const Wall> walls) {
+  std::vector<HistoryQuantity> list;
   list.reserve(walls.size());
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const std::string& wall = walls[w].name;
@@ -137,7 +137,7 @@ std::vector<Quantity> of_walls(std::span<const Wall> walls) {
   return list;
 }
 
-std::vector<Quantity> of_membrane() {
+std::vector<HistoryQuantity> of_membrane() {
   return Entries{measurement}
       .add("membrane_pressure", "Pa", "on the membrane; 0 before it is in place",
            [](M m) { return m.membrane_pressure; })
@@ -149,7 +149,7 @@ std::vector<Quantity> of_membrane() {
       .take();
 }
 
-std::vector<Quantity> of_cell() {
+std::vector<HistoryQuantity> of_cell() {
   using C = const CellState&;
   return Entries{cell}
       .add(
@@ -168,7 +168,7 @@ std::vector<Quantity> of_cell() {
       .take();
 }
 
-std::vector<Quantity> of_bonds() {
+std::vector<HistoryQuantity> of_bonds() {
   return Entries{measurement}
       .add("bonds", "", "bonds that hold", [](M m) { return m.bonds; })
       .add("broken_in_tension", "", "bonds that broke in tension since the start",
@@ -180,14 +180,14 @@ std::vector<Quantity> of_bonds() {
       .take();
 }
 
-std::vector<Quantity> of_stages() {
+std::vector<HistoryQuantity> of_stages() {
   return Entries{whole}
       .add("stage", "", "the stage under way, counted from 1",
            [](const HistoryRow& row) { return row.stage.value_or(0); })
       .take();
 }
 
-std::vector<Quantity> of_sample() {
+std::vector<HistoryQuantity> of_sample() {
   return Entries{sample}
       .add("volume", "m^3",
            "of the space that the walls close off, or of the periodic cell; 0 where it is open",
@@ -308,8 +308,8 @@ std::vector<QuantityGroup> quantity_groups(std::span<const Wall> walls) {
   };
 }
 
-std::vector<Quantity> quantities_of(const HistoryLayout& layout) {
-  std::vector<Quantity> found;
+std::vector<HistoryQuantity> quantities_of(const HistoryLayout& layout) {
+  std::vector<HistoryQuantity> found;
   for (QuantityGroup& group : quantity_groups(layout.walls)) {
     if (!group.is_in(layout)) continue;
     found.insert(found.end(), std::make_move_iterator(group.quantities.begin()),
@@ -318,11 +318,14 @@ std::vector<Quantity> quantities_of(const HistoryLayout& layout) {
   return found;
 }
 
-std::vector<MeasuredQuantity> measured(std::span<const Quantity> quantities,
+std::vector<MeasuredQuantity> measured(std::span<const HistoryQuantity> quantities,
                                        const HistoryRow& row) {
   std::vector<MeasuredQuantity> found;
   found.reserve(quantities.size());
-  for (const Quantity& quantity : quantities) found.push_back({quantity, quantity.numbers(row)});
+  for (const HistoryQuantity& quantity : quantities) {
+    const QuantityName& name = quantity;
+    found.push_back({name, quantity.numbers(row)});
+  }
   return found;
 }
 

@@ -45,7 +45,7 @@ struct QuantityName {
 /// One measured quantity. An entry in the table of quantities is all that there is to it: header
 /// and rows of history.csv, its reference page, the page of a report, Python and JSON are made
 /// from that table.
-struct Quantity : QuantityName {
+struct HistoryQuantity : QuantityName {
   /// Its numbers, as many as it has columns.
   std::function<std::vector<Number>(const HistoryRow&)> numbers;
 };
@@ -67,19 +67,19 @@ struct QuantityGroup {
   std::string title;      ///< for the reference
   std::string condition;  ///< which runs have them, as a sentence
   bool (*is_in)(const HistoryLayout&);
-  std::vector<Quantity> quantities;
+  std::vector<HistoryQuantity> quantities;
 };
 
 /// The table: everything that a run with these walls may measure.
 [[nodiscard]] std::vector<QuantityGroup> quantity_groups(std::span<const Wall> walls);
 /// The part of the table that a run has.
-[[nodiscard]] std::vector<Quantity> quantities_of(const HistoryLayout& layout);
+[[nodiscard]] std::vector<HistoryQuantity> quantities_of(const HistoryLayout& layout);
 
 /// A quantity with its numbers at some step.
 struct MeasuredQuantity : QuantityName {
   std::vector<Number> numbers;
 };
-[[nodiscard]] std::vector<MeasuredQuantity> measured(std::span<const Quantity> quantities,
+[[nodiscard]] std::vector<MeasuredQuantity> measured(std::span<const HistoryQuantity> quantities,
                                                      const HistoryRow& row);
 
 /// Writes a number for each column, by its name.

@@ -174,7 +174,7 @@ struct HttpServer::Impl {
   }
 
   /// Answers whole requests, one after the other, until an answer has to wait for its reader.
-  void answer_what_has_come(Connection& client) {
+  void answer_what_has_come(Connection& client) const {
     constexpr std::string_view ending = "\r\n\r\n";
     while (!client.is_sending() && !client.closing && !client.gone) {
       const std::size_t end = client.request.find(ending);
@@ -186,7 +186,7 @@ struct HttpServer::Impl {
     }
   }
 
-  void answer_next(Connection& client, std::size_t end, std::size_t ending) {
+  void answer_next(Connection& client, std::size_t end, std::size_t ending) const {
     const std::string text = client.request.substr(0, end);
     client.request.erase(0, end + ending);
     if (text.size() > longest_request) return reply(client, {431, {}, {}}, true, true);

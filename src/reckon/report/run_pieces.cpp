@@ -49,7 +49,7 @@ void add_history(const RunFolder& folder, const SceneConfig& scene, std::size_t 
   const std::vector<Wall> walls = make_walls(scene);
   std::map<std::string, std::string> meanings;
   for (const QuantityGroup& group : quantity_groups(walls)) {
-    for (const Quantity& quantity : group.quantities) {
+    for (const HistoryQuantity& quantity : group.quantities) {
       for (const std::string& column : quantity.columns()) meanings[column] = quantity.meaning;
     }
   }

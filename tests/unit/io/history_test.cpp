@@ -103,7 +103,7 @@ TEST(Quantities, EachHasAsManyNumbersAsColumns) {
   const HistoryRow row{.measurement = measurement, .cell = &cell, .stage = 1, .sample = &sample};
   std::set<std::string> names;
   std::size_t columns = 0;
-  for (const Quantity& quantity : quantities_of(everything)) {
+  for (const HistoryQuantity& quantity : quantities_of(everything)) {
     EXPECT_EQ(quantity.numbers(row).size(), quantity.columns().size()) << quantity.name;
     EXPECT_FALSE(quantity.meaning.empty()) << quantity.name;
     for (const std::string& column : quantity.columns()) names.insert(column);
@@ -120,7 +120,7 @@ TEST(Quantities, OneEntryIsAllThatAQuantityNeeds) {
       {{"porosity", "mm^2", "a new quantity", {"_x", "_y"}}, [](const HistoryRow& row) {
          return std::vector<Number>{row.measurement.contacts, 0.5};
        }});
-  const std::vector<Quantity>& quantities = groups[0].quantities;
+  const std::vector<HistoryQuantity>& quantities = groups[0].quantities;
   EXPECT_TRUE(history_header(quantities).ends_with(",porosity_x_mm2,porosity_y_mm2"));
   const Measurement measurement = measurement_at(3);
   EXPECT_TRUE(history_row(quantities, {.measurement = measurement}).ends_with(",12,0.5"));
