@@ -156,7 +156,7 @@ struct HttpServer::Impl {
     connections.erase(oldest);
   }
 
-  void receive(Connection& client) {
+  void receive(Connection& client) const {
     constexpr int most_parts = 16;  // then it is the others' turn
     std::array<char, 4096> bytes{};
     for (int part = 0; part < most_parts && !client.is_sending() && !client.gone; ++part) {

@@ -44,12 +44,17 @@ class Polynomial {
   void for_each_term(const std::array<double, 3>& p, Visit&& visit) const {
     std::size_t term = 0;
     double x = 1;
-    for (int a = 0; a <= degree_; ++a, x *= p[0]) {
+    for (int a = 0; a <= degree_; ++a) {
       double xy = x;
-      for (int b = 0; a + b <= degree_; ++b, xy *= p[1]) {
+      for (int b = 0; a + b <= degree_; ++b) {
         double xyz = xy;
-        for (int c = 0; a + b + c <= degree_; ++c, xyz *= p[2]) visit(term++, xyz);
+        for (int c = 0; a + b + c <= degree_; ++c) {
+          visit(term++, xyz);
+          xyz *= p[2];
+        }
+        xy *= p[1];
       }
+      x *= p[0];
     }
   }
   /// No farther out than where it was fitted.

@@ -145,6 +145,7 @@ std::string listed(const std::vector<std::string>& names) {
 [[noreturn]] void refuse_series(const std::vector<Name>& names, const std::string& folder,
                                 const std::map<std::string, std::vector<std::string>>& series) {
   std::vector<std::string> parts;
+  parts.reserve(series.size());
   for (const auto& [key, members] : series) {
     parts.push_back(members.size() == 1 ? members.front()
                                         : fmt::format("{} to {} ({} files)", members.front(),
