@@ -76,7 +76,7 @@ ShapeResolution resolution_of(const MakeOptions& options) {
 /// Says what is wrong with some of the sources. That of the only one is thrown instead.
 void report_faults(const std::vector<Error>& faults, std::size_t sources,
                    const std::string& library) {
-  if (sources == 1) throw faults.front();
+  if (sources == 1) throw Error{faults.front().text()};
   for (const Error& fault : faults) fmt::print(stderr, "reckon: error: {}\n", fault.what());
   const bool none_left = faults.size() == sources;
   fmt::print(stderr, "reckon: {} of {} sources are at fault; {}\n", faults.size(), sources,

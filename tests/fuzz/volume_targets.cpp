@@ -21,7 +21,7 @@ GrayVolume small_volume() {
 
 void write_packed(const std::string& ending, const std::filesystem::path& file) {
   const GrayVolume volume = small_volume();
-  const VolumeOutline what{volume.dims, VoxelType::uint16, volume.voxel};
+  const VolumeOutline what{volume.dims, VoxelType::uint16, {volume.voxel, 1.0, {}}, {}};
   const std::string numbers = encode_numbers(volume.values, what.type);
   if (ending == "mha") {
     write_file(file, testing::packed_metaimage(metaimage_header(what), numbers));

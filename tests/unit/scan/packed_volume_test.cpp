@@ -47,7 +47,7 @@ class PackedVolumes : public ::testing::Test {
 
   /// The volume as files of every kind that is packed.
   std::vector<std::string> write_all(const GrayVolume& volume, VoxelType type) {
-    const VolumeOutline what{dims, type, voxel};
+    const VolumeOutline what{dims, type, {voxel, 1.0, {}}, {}};
     const std::string numbers = encode_numbers(volume.values, type);
     write_file(path("a.mha"), testing::packed_metaimage(metaimage_header(what), numbers));
     write_file(path("a.nrrd"), testing::packed_nrrd(nrrd_header(what), numbers));
@@ -140,7 +140,7 @@ TEST_F(PackedVolumes, WhatIsCutShortIsRefusedAndLeavesNothing) {
 }
 
 TEST_F(PackedVolumes, WhatIsDamagedOrOfAnotherLengthIsRefused) {
-  const VolumeOutline what{dims, VoxelType::uint8, voxel};
+  const VolumeOutline what{dims, VoxelType::uint8, {voxel, 1.0, {}}, {}};
   const std::string numbers = encode_numbers(volume_of(VoxelType::uint8).values, what.type);
   const auto expect_refused = [&](const std::string& content,
                                   std::initializer_list<std::string> parts) {
