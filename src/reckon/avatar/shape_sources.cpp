@@ -103,12 +103,13 @@ MeshFileSources mesh_file_sources(const std::filesystem::path& file, double unit
     for (std::size_t p = 0; p < parts.size(); ++p) {
       made.sources.push_back({parts.size() == 1 ? name : fmt::format("{}_{}", name, p + 1),
                               [part = std::move(parts[p])](const ShapeResolution&) {
-                                if (part.fault) throw *part.fault;
+                                if (part.fault) throw Error{part.fault->text()};
                                 return part.mesh;
                               }});
     }
   } catch (const Error& error) {
-    made.sources = {{name, [error](const ShapeResolution&) -> TriangleMesh { throw error; }}};
+    made.sources = {
+        {name, [error](const ShapeResolution&) -> TriangleMesh { throw Error{error.text()}; }}};
   }
   return made;
 }
@@ -225,7 +226,7 @@ ShapeLibrary build_library(std::span<const ShapeSource> sources, const ShapeReso
   ShapeLibrary library;
   library.reserve(sources.size());
   for (Built& built : build_each(sources, resolution, on_progress)) {
-    if (built.fault) throw *built.fault;
+    if (built.fault) throw Error{built.fault->text()};
     library.push_back(std::move(built.shape));
   }
   return library;

@@ -21,7 +21,8 @@ BlockBins::BlockBins(const GridCut& cut, int block, std::span<const Vec3> positi
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     first[a] = cut.first_bin(axis, place[a]);
-    size_[a] = static_cast<std::uint64_t>(cut.first_bin(axis, place[a] + 1) - first[a] + 2);
+    const int length = cut.first_bin(axis, place[a] + 1) - first[a] + 2;
+    size_[a] = static_cast<std::uint64_t>(length);
   }
   const auto table_size = std::bit_ceil(2 * positions.size() + 2);
   shift_ = 64 - static_cast<int>(std::countr_zero(table_size));
@@ -34,7 +35,8 @@ BlockBins::BlockBins(const GridCut& cut, int block, std::span<const Vec3> positi
     std::array<std::uint64_t, 3> at{};
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
-      at[a] = static_cast<std::uint64_t>(cut.bin_of(axis, positions[grain][axis]) - first[a] + 1);
+      const int inside = cut.bin_of(axis, positions[grain][axis]) - first[a] + 1;
+      at[a] = static_cast<std::uint64_t>(inside);
     }
     const std::uint64_t bin = bin_at(at[0], at[1], at[2]);
     bin_list_[grain] = bin;
