@@ -41,7 +41,8 @@ int fallen_through(double ratio, bool slab_last) {
   for (int n = 0; n < 9; ++n) {
     GrainState grain;
     grain.shape = ShapeId{1};
-    grain.position = {0.55 * (n % 3 - 1) + 0.03, 0.55 * (n / 3 - 1) - 0.04, 0.5 + 1.3 * small};
+    const int row = n / 3;
+    grain.position = {0.55 * (n % 3 - 1) + 0.03, 0.55 * (row - 1) - 0.04, 0.5 + 1.3 * small};
     grain.velocity = {0, 0, -1};
     grains.push_back(grain);
   }
@@ -116,7 +117,8 @@ TEST(OrderOfGrains, DoesNotChangeTheAnswer) {
     for (int n = 0; n < 36; ++n) {
       GrainState grain;
       grain.shape = ShapeId{static_cast<std::uint32_t>(n % 4)};
-      grain.position = {1.1 * (n % 3), 1.1 * (n / 3 % 3), 0.8 + 1.3 * (n / 9)};
+      const int layer = n / 9;
+      grain.position = {1.1 * (n % 3), 1.1 * (n / 3 % 3), 0.8 + 1.3 * layer};
       grain.orientation = normalized(Quaternion{1, std::sin(1.0 * n), std::cos(2.0 * n), 0.3});
       grain.velocity = {0.1 * std::sin(3.0 * n), 0.1 * std::cos(5.0 * n), -1};
       grains.push_back(grain);
