@@ -96,7 +96,7 @@ LibraryReader::LibraryReader(const std::filesystem::path& path) : file_{path, li
 }
 
 ShapeSummary LibraryReader::summary(std::size_t s) const {
-  ShapeSummary summary{table_[s].name, outline_of(table_[s]), 0, digest_[s]};
+  ShapeSummary summary{table_[s].name, outline_without_grid(table_[s]), 0, digest_[s]};
   check_outline(summary.outline, grid_values(s), place(s));
   if (summary.outline.storage == ShapeStorage::band) summary.outline.band_words = rows(s);
   const std::vector<double> areas = column("/node/area", s);
@@ -108,7 +108,7 @@ ShapeSummary LibraryReader::summary(std::size_t s) const {
 Shape LibraryReader::shape(std::size_t s) const {
   Shape shape = table_[s];
   if (shape.storage == ShapeStorage::band) {
-    check_outline(outline_of(shape), grid_values(s), place(s));
+    check_outline(outline_without_grid(shape), grid_values(s), place(s));
     std::vector<LevelSetBand::Word> words(rows(s));
     file_.read_rows<LevelSetBand::Word>(band_field, first_value_[s], words);
     if (!is_band(shape.level_set.dims, words)) damaged(place(s), "its grid is not a band");

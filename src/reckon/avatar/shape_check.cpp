@@ -53,7 +53,9 @@ void check_outline(const ShapeOutline& outline, std::uint64_t values, const std:
     count *= static_cast<std::uint64_t>(dim);
   }
   if (count != values) refuse(place, "the grid's dims and its number of values disagree");
-  if (!(outline.spacing > 0) || !std::isfinite(outline.spacing) ||
+  // A band counts in single precision, where smaller steps vanish.
+  constexpr double least_spacing = 1e-30;
+  if (!(outline.spacing > least_spacing) || !std::isfinite(outline.spacing) ||
       !is_finite(outline.origin_body)) {
     refuse(place, "the grid's spacing or origin is no good number");
   }
@@ -77,7 +79,7 @@ void check_outline(const ShapeOutline& outline, std::uint64_t values, const std:
 
 void check_shape(const Shape& shape, const std::string& place) {
   const std::vector<float>& values = shape.level_set.values;
-  check_outline(outline_of(shape), values.size(), place);
+  check_outline(outline_without_grid(shape), values.size(), place);
   if (!std::all_of(values.begin(), values.end(),
                    [](float value) { return std::isfinite(value); })) {
     refuse(place, "the grid holds a value that is not finite");

@@ -68,8 +68,7 @@ void round_to_band(Shape& shape) {
   shape.storage = ShapeStorage::band;
 }
 
-ShapeOutline outline_of(const Shape& shape) {
-  const bool in_band = shape.storage == ShapeStorage::band && !shape.level_set.values.empty();
+ShapeOutline outline_without_grid(const Shape& shape) {
   return {shape.level_set.dims,
           shape.level_set.spacing,
           shape.level_set.origin_body,
@@ -79,7 +78,15 @@ ShapeOutline outline_of(const Shape& shape) {
           shape.lipschitz,
           shape.sphere_radius,
           shape.storage,
-          in_band ? encode_band(shape.level_set).size() : 0};
+          0};
+}
+
+ShapeOutline outline_of(const Shape& shape) {
+  ShapeOutline outline = outline_without_grid(shape);
+  if (shape.storage == ShapeStorage::band && !shape.level_set.values.empty()) {
+    outline.band_words = encode_band(shape.level_set).size();
+  }
+  return outline;
 }
 
 std::uint64_t ShapeOutline::memory() const {

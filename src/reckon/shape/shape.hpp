@@ -110,6 +110,10 @@ struct ShapeOutline {
 /// (`band_words` stays 0 of a shape without values.)
 [[nodiscard]] ShapeOutline outline_of(const Shape& shape);
 
+/// As outline_of, but it does not look at the grid's values, which may still be unchecked:
+/// `band_words` stays 0.
+[[nodiscard]] ShapeOutline outline_without_grid(const Shape& shape);
+
 /// Groups the nodes, in their order, into runs of at most `per_cluster`, each with a sphere that
 /// holds its nodes (rounded outward).
 [[nodiscard]] std::vector<NodeCluster> make_clusters(const SurfaceNodes& nodes,

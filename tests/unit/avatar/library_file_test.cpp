@@ -186,6 +186,23 @@ TEST_F(LibraryFile, RefusesToSaveWhatCouldNotBeUsed) {
   refused([](Shape& s) { s.level_set.values[3] = std::numeric_limits<float>::infinity(); },
           {"not finite"});
   refused([&](Shape& s) { s.level_set.spacing = nan; }, {"spacing"});
+  refused([](Shape& s) { s.level_set.spacing = 1e-300; }, {"spacing"});
+  // A band is encoded only after its grid was found good.
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    refused(
+        [&](Shape& s) {
+          s.storage = ShapeStorage::band;
+          s.level_set.values[3] = bad;
+        },
+        {"not finite"});
+  }
+  refused(
+      [](Shape& s) {
+        s.storage = ShapeStorage::band;
+        s.level_set.dims[2] += 1;
+      },
+      {"disagree"});
   refused([](Shape& s) { s.nodes = {}; }, {"no nodes"});
   refused([](Shape& s) { s.nodes.area.pop_back(); }, {"different lengths"});
   refused([&](Shape& s) { s.nodes.x[4] = nan; }, {"node 4"});

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -51,6 +52,15 @@ TEST_P(ThreadLoop, ThrowsTheErrorOfTheLowestIndex) {
     }
     EXPECT_EQ(caught, "at 7");
   }
+}
+
+TEST_P(ThreadLoop, LargestIsTheLeastWhereNothingIsLarger) {
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  for (const std::size_t count : {0U, 10U, 100000U}) {
+    EXPECT_EQ(parallel_max(count, none, [&](std::size_t) { return none; }), none);
+    EXPECT_EQ(parallel_max(count, 3, [&](std::size_t k) { return -static_cast<double>(k); }), 3);
+  }
+  EXPECT_EQ(parallel_max(100000, 3, [&](std::size_t k) { return k == 70001 ? 4.0 : 1.0; }), 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Counts, ThreadLoop, testing::Values(1, 2, 4));
