@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "reckon/core/build_info.hpp"
-#include "reckon/io/json_writer.hpp"
+#include "reckon/text/json_writer.hpp"
 
 namespace reckon::bench {
 namespace {

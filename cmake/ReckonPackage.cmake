@@ -5,8 +5,8 @@
 # documents; and, as component `development`, the libraries with their headers for find_package(reckon).
 include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/reckon")
-set(modules core math parallel shape avatar grains domain neighbor contact boundary motion simulation
-  analysis io)
+set(modules core text math parallel shape avatar grains domain neighbor contact boundary motion simulation
+  analysis scene output results run)
 install(TARGETS reckon_flags EXPORT reckonTargets COMPONENT development)
 set_target_properties(reckon_flags PROPERTIES EXPORT_NAME flags)
 foreach(module IN LISTS modules)

@@ -12,11 +12,11 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "reckon/io/history.hpp"
-#include "reckon/io/run.hpp"
-#include "reckon/io/run_folder.hpp"
-#include "reckon/io/run_verdict.hpp"
-#include "reckon/io/saved_fields.hpp"
+#include "reckon/output/history.hpp"
+#include "reckon/output/run_folder.hpp"
+#include "reckon/results/run_verdict.hpp"
+#include "reckon/results/saved_fields.hpp"
+#include "reckon/run/run.hpp"
 #include "scene.hpp"
 #include "tables.hpp"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "reckon/io/scene_reader.hpp"
 #include "reckon/parallel/foreign_communicator.hpp"
+#include "reckon/scene/scene_reader.hpp"
 #include "reckon/simulation/setup.hpp"
 
 namespace reckon::python {

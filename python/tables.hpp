@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "reckon/io/quantities.hpp"
-#include "reckon/io/saved_fields.hpp"
+#include "reckon/output/quantities.hpp"
+#include "reckon/results/saved_fields.hpp"
 #include "reckon/simulation/measurement.hpp"
 #include "reckon/simulation/simulation.hpp"
 

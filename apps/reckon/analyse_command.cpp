@@ -14,9 +14,9 @@
 #include "grains_parts.hpp"
 #include "progress.hpp"
 #include "reckon/core/utf8.hpp"
-#include "reckon/io/json_writer.hpp"
-#include "reckon/io/run_analysis.hpp"
-#include "reckon/io/run_verdict.hpp"
+#include "reckon/results/run_analysis.hpp"
+#include "reckon/results/run_verdict.hpp"
+#include "reckon/text/json_writer.hpp"
 
 namespace reckon::app {
 

@@ -11,9 +11,9 @@
 
 #include "exit_codes.hpp"
 #include "reckon/core/utf8.hpp"
-#include "reckon/io/json_writer.hpp"
-#include "reckon/io/run_plan.hpp"
 #include "reckon/parallel/threads.hpp"
+#include "reckon/run/run_plan.hpp"
+#include "reckon/text/json_writer.hpp"
 #include "scene_input.hpp"
 #include "thread_limit.hpp"
 

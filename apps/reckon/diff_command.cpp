@@ -12,8 +12,8 @@
 #include "exit_codes.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/utf8.hpp"
-#include "reckon/io/json_writer.hpp"
-#include "reckon/io/run_diff.hpp"
+#include "reckon/results/run_diff.hpp"
+#include "reckon/text/json_writer.hpp"
 
 namespace reckon::app {
 namespace {

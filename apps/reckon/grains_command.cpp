@@ -15,7 +15,7 @@
 #include "grains_parts.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/core/error.hpp"
-#include "reckon/io/units.hpp"
+#include "reckon/text/units.hpp"
 
 namespace reckon::app {
 namespace {

@@ -17,7 +17,7 @@
 #include "reckon/avatar/surface_extraction.hpp"
 #include "reckon/avatar/surface_files.hpp"
 #include "reckon/core/error.hpp"
-#include "reckon/io/human.hpp"
+#include "reckon/text/human.hpp"
 
 namespace reckon::app {
 namespace {

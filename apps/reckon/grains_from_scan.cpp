@@ -14,11 +14,11 @@
 #include "progress.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/core/error.hpp"
-#include "reckon/io/human.hpp"
-#include "reckon/io/placement_table.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "reckon/scan/from_scan.hpp"
 #include "reckon/scan/image_filters.hpp"
+#include "reckon/scene/placement_table.hpp"
+#include "reckon/text/human.hpp"
 #include "scan_report.hpp"
 #include "thread_limit.hpp"
 

@@ -13,8 +13,8 @@
 #include "grains_parts.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/core/utf8.hpp"
-#include "reckon/io/human.hpp"
-#include "reckon/io/json_writer.hpp"
+#include "reckon/text/human.hpp"
+#include "reckon/text/json_writer.hpp"
 
 namespace reckon::app {
 namespace {

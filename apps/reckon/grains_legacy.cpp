@@ -9,7 +9,7 @@
 #include "grains_parts.hpp"
 #include "reckon/avatar/legacy_morphology.hpp"
 #include "reckon/avatar/library_file.hpp"
-#include "reckon/io/human.hpp"
+#include "reckon/text/human.hpp"
 
 namespace reckon::app {
 

@@ -14,12 +14,12 @@
 #include "grains_parts.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
-#include "reckon/io/json_writer.hpp"
-#include "reckon/io/placement_table.hpp"
-#include "reckon/io/run_surfaces.hpp"
 #include "reckon/math/portable.hpp"
+#include "reckon/results/run_surfaces.hpp"
 #include "reckon/scan/near_pairs.hpp"
 #include "reckon/scan/scan_avatars.hpp"
+#include "reckon/scene/placement_table.hpp"
+#include "reckon/text/json_writer.hpp"
 
 namespace reckon::app {
 namespace {

@@ -20,8 +20,8 @@
 #include "reckon/avatar/shape_statistics.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
-#include "reckon/io/human.hpp"
 #include "reckon/parallel/threads.hpp"
+#include "reckon/text/human.hpp"
 #include "thread_limit.hpp"
 
 namespace reckon::app {

@@ -11,8 +11,8 @@
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/avatar/shape_statistics.hpp"
 #include "reckon/core/file.hpp"
-#include "reckon/io/csv_text.hpp"
-#include "reckon/io/json_writer.hpp"
+#include "reckon/text/csv_text.hpp"
+#include "reckon/text/json_writer.hpp"
 
 namespace reckon::app {
 namespace {

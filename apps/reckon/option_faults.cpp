@@ -14,9 +14,9 @@
 
 #include "command_pages.hpp"
 #include "reckon/core/error.hpp"
-#include "reckon/io/near_misses.hpp"
-#include "reckon/io/nearest_name.hpp"
-#include "reckon/io/units.hpp"
+#include "reckon/text/near_misses.hpp"
+#include "reckon/text/nearest_name.hpp"
+#include "reckon/text/units.hpp"
 
 namespace reckon::app {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "reckon/core/utf8.hpp"
-#include "reckon/io/human.hpp"
 #include "reckon/report/paraview_state.hpp"
+#include "reckon/text/human.hpp"
 
 namespace reckon::app {
 

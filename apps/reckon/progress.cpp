@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "reckon/io/human.hpp"
+#include "reckon/text/human.hpp"
 #include "standard_streams.hpp"
 
 namespace reckon::app {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "reckon/io/run.hpp"
+#include "reckon/run/run.hpp"
 
 namespace reckon::app {
 

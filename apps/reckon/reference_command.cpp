@@ -8,8 +8,8 @@
 #include <string>
 
 #include "command_pages.hpp"
-#include "reckon/io/history.hpp"
-#include "reckon/io/scene_schema.hpp"
+#include "reckon/output/history.hpp"
+#include "reckon/scene/scene_schema.hpp"
 
 namespace reckon::app {
 

@@ -15,9 +15,9 @@
 #include "progress.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/utf8.hpp"
-#include "reckon/io/human.hpp"
-#include "reckon/io/run_verdict.hpp"
 #include "reckon/report/page.hpp"
+#include "reckon/results/run_verdict.hpp"
+#include "reckon/text/human.hpp"
 
 namespace reckon::app {
 namespace {

@@ -13,12 +13,12 @@
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/utf8.hpp"
-#include "reckon/io/csv_text.hpp"
-#include "reckon/io/human.hpp"
-#include "reckon/io/placement_table.hpp"
 #include "reckon/scan/doubts.hpp"
 #include "reckon/scan/scan_truth.hpp"
 #include "reckon/scan/volume_file.hpp"
+#include "reckon/scene/placement_table.hpp"
+#include "reckon/text/csv_text.hpp"
+#include "reckon/text/human.hpp"
 
 namespace reckon::app {
 namespace {

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
-#include "reckon/io/json_writer.hpp"
 #include "reckon/scan/from_scan.hpp"
 #include "reckon/scan/scan_avatars.hpp"
+#include "reckon/text/json_writer.hpp"
 
 namespace reckon::app {
 

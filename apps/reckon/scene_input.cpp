@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "reckon/core/utf8.hpp"
-#include "reckon/io/scene_loader.hpp"
+#include "reckon/scene/scene_loader.hpp"
 
 namespace reckon::app {
 

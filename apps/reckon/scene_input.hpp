@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "reckon/io/scene_reader.hpp"
+#include "reckon/scene/scene_reader.hpp"
 #include "reckon/simulation/setup.hpp"
 
 namespace reckon::app {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "progress.hpp"
-#include "reckon/io/run_surfaces.hpp"
+#include "reckon/results/run_surfaces.hpp"
 
 namespace reckon::app {
 

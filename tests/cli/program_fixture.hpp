@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cli/process.hpp"
-#include "unit/io/run_scene_fixture.hpp"
+#include "unit/run/run_scene_fixture.hpp"
 
 namespace reckon::testing {
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "cli/program_fixture.hpp"
-#include "reckon/io/run_record.hpp"
+#include "reckon/results/run_record.hpp"
 
 namespace reckon {
 namespace {

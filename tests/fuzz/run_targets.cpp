@@ -5,11 +5,11 @@
 #include <stdexcept>
 
 #include "reckon/core/file.hpp"
-#include "reckon/io/checkpoint.hpp"
-#include "reckon/io/fields.hpp"
-#include "reckon/io/history.hpp"
-#include "reckon/io/number_table.hpp"
-#include "reckon/io/saved_fields.hpp"
+#include "reckon/output/checkpoint.hpp"
+#include "reckon/output/fields.hpp"
+#include "reckon/output/history.hpp"
+#include "reckon/results/saved_fields.hpp"
+#include "reckon/text/number_table.hpp"
 #include "scratch.hpp"
 #include "sealed_damage.hpp"
 #include "targets.hpp"

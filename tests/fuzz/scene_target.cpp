@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "reckon/core/error.hpp"
-#include "reckon/io/scene_reader.hpp"
-#include "reckon/io/scene_writer.hpp"
+#include "reckon/scene/scene_reader.hpp"
+#include "reckon/scene/scene_writer.hpp"
 #include "scratch.hpp"
 #include "targets.hpp"
 

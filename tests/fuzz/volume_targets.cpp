@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "reckon/core/file.hpp"
-#include "reckon/io/placement_table.hpp"
 #include "reckon/scan/volume_file.hpp"
 #include "reckon/scan/volume_formats.hpp"
+#include "reckon/scene/placement_table.hpp"
 #include "scratch.hpp"
 #include "support/packed_files.hpp"
 #include "targets.hpp"

@@ -11,7 +11,7 @@
 
 #include "cli/program_fixture.hpp"
 #include "reckon/domain/decomposition_names.hpp"
-#include "reckon/io/history.hpp"
+#include "reckon/output/history.hpp"
 
 namespace reckon {
 namespace {

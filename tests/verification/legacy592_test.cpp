@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "reckon/core/file.hpp"
-#include "reckon/io/scene_loader.hpp"
+#include "reckon/scene/scene_loader.hpp"
 #include "reckon/simulation/setup.hpp"
 #include "support/legacy_data.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "reckon/avatar/spherical_harmonics.hpp"
-#include "reckon/avatar/text_reader.hpp"
+#include "reckon/text/text_reader.hpp"
 
 namespace reckon {
 namespace {

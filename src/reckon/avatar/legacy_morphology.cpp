@@ -8,7 +8,7 @@
 #include <iterator>
 #include <limits>
 
-#include "reckon/avatar/text_reader.hpp"
+#include "reckon/text/text_reader.hpp"
 
 namespace reckon {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reckon/avatar/text_reader.hpp"
+#include "reckon/text/text_reader.hpp"
 
 namespace reckon {
 

@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/text/text_reader.hpp"
 
 namespace reckon {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/avatar/text_reader.hpp"
+#include "reckon/text/text_reader.hpp"
 
 /// What the header of a PLY file says about the data that follow it.
 namespace reckon::ply {

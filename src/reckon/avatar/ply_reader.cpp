@@ -9,8 +9,8 @@
 #include "reckon/avatar/mesh_reader.hpp"
 #include "reckon/avatar/ply_header.hpp"
 #include "reckon/avatar/polygon_mesh.hpp"
-#include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/text/text_reader.hpp"
 
 namespace reckon {
 namespace {

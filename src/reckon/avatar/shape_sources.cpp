@@ -21,11 +21,11 @@
 #include "reckon/avatar/mesh_validation.hpp"
 #include "reckon/avatar/spherical_harmonics.hpp"
 #include "reckon/avatar/surface_extraction.hpp"
-#include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/write_failure.hpp"
 #include "reckon/math/portable.hpp"
 #include "reckon/parallel/threads.hpp"
+#include "reckon/text/text_reader.hpp"
 
 namespace reckon {
 namespace {

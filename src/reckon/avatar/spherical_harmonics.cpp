@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "reckon/avatar/geodesic_sphere.hpp"
-#include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/text/text_reader.hpp"
 
 namespace reckon {
 namespace {

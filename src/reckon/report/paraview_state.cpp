@@ -12,9 +12,9 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/vtk_xml.hpp"
-#include "reckon/io/history.hpp"
-#include "reckon/io/saved_fields.hpp"
+#include "reckon/output/history.hpp"
 #include "reckon/report/run_shapes.hpp"
+#include "reckon/results/saved_fields.hpp"
 
 namespace reckon {
 namespace {

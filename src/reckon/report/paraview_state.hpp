@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "reckon/io/run_folder.hpp"
+#include "reckon/output/run_folder.hpp"
 
 namespace reckon {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "reckon/core/vtk_xml.hpp"
-#include "reckon/io/json_writer.hpp"
+#include "reckon/text/json_writer.hpp"
 
 namespace reckon {
 

@@ -16,13 +16,13 @@
 #include "reckon/avatar/shape_statistics.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
-#include "reckon/io/history.hpp"
-#include "reckon/io/run_record.hpp"
-#include "reckon/io/run_verdict.hpp"
-#include "reckon/io/saved_fields.hpp"
-#include "reckon/io/stage_report.hpp"
+#include "reckon/output/history.hpp"
 #include "reckon/report/piece.hpp"
 #include "reckon/report/run_shapes.hpp"
+#include "reckon/results/run_record.hpp"
+#include "reckon/results/run_verdict.hpp"
+#include "reckon/results/saved_fields.hpp"
+#include "reckon/results/stage_report.hpp"
 #include "reckon/simulation/setup.hpp"
 
 namespace reckon {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "reckon/io/run_folder.hpp"
+#include "reckon/output/run_folder.hpp"
 #include "reckon/report/run_shapes.hpp"
 
 namespace reckon {

@@ -10,9 +10,9 @@
 #include "reckon/avatar/shape_statistics.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
-#include "reckon/io/run_surfaces.hpp"
-#include "reckon/io/saved_fields.hpp"
-#include "reckon/io/scene_reader.hpp"
+#include "reckon/results/run_surfaces.hpp"
+#include "reckon/results/saved_fields.hpp"
+#include "reckon/scene/scene_reader.hpp"
 
 namespace reckon {
 namespace {

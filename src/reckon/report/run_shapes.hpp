@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "reckon/io/run_folder.hpp"
-#include "reckon/io/saved_fields.hpp"
+#include "reckon/output/run_folder.hpp"
 #include "reckon/report/display_mesh.hpp"
+#include "reckon/results/saved_fields.hpp"
 #include "reckon/shape/shape.hpp"
 #include "reckon/simulation/config.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "reckon/io/run_folder.hpp"
+#include "reckon/output/run_folder.hpp"
 
 namespace reckon {
 

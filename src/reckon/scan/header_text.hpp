@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "reckon/avatar/text_reader.hpp"
 #include "reckon/scan/volume_formats.hpp"
+#include "reckon/text/text_reader.hpp"
 
 /// What the readers of the text headers of MetaImage and NRRD share.
 namespace reckon {

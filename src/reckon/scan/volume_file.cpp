@@ -9,10 +9,10 @@
 #include <cmath>
 #include <utility>
 
-#include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/scan/volume_formats.hpp"
+#include "reckon/text/text_reader.hpp"
 
 namespace reckon {
 namespace {

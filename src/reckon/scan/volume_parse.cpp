@@ -7,8 +7,8 @@
 #include <charconv>
 #include <numeric>
 
-#include "reckon/avatar/text_reader.hpp"
 #include "reckon/scan/volume_formats.hpp"
+#include "reckon/text/text_reader.hpp"
 
 namespace reckon {
 namespace {

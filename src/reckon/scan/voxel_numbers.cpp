@@ -10,8 +10,8 @@
 #include <cstring>
 #include <limits>
 
-#include "reckon/avatar/text_reader.hpp"
 #include "reckon/scan/volume_formats.hpp"
+#include "reckon/text/text_reader.hpp"
 
 namespace reckon {
 namespace {

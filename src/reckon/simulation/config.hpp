@@ -19,9 +19,9 @@
 namespace reckon {
 
 /// Everything a scene says, as plain values in SI units, already resolved to absolute paths.
-/// `io/` fills it from TOML and checks ranges; the Python module fills the same structs.
+/// `scene/` fills it from TOML and checks ranges; the Python module fills the same structs.
 /// Field comments give unit, default and range: the reference page is generated from the table in
-/// io/scene_schema.cpp, which repeats none of the numbers below.
+/// scene/scene_schema.cpp, which repeats none of the numbers below.
 
 /// What grains are made of.
 struct MaterialConfig {
@@ -149,7 +149,7 @@ struct ExplicitGrain {
   Vec3 angular_velocity;                        ///< world frame [rad/s]
   bool fixed{false};                            ///< keeps its velocities whatever the forces
 };
-/// A table of poses, a line per grain (io/placement_table.hpp).
+/// A table of poses, a line per grain (scene/placement_table.hpp).
 struct TablePlacement {
   std::string file;
 };

@@ -8,7 +8,7 @@
 
 #include "reckon/avatar/analytic.hpp"
 #include "reckon/avatar/shape_builder.hpp"
-#include "reckon/io/scene_reader.hpp"
+#include "reckon/scene/scene_reader.hpp"
 #include "reckon/simulation/simulation.hpp"
 
 int main() {

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "reckon/core/error.hpp"
-#include "reckon/io/run_analysis.hpp"
-#include "reckon/io/saved_fields.hpp"
 #include "reckon/report/page.hpp"
 #include "reckon/report/paraview_state.hpp"
 #include "reckon/report/run_shapes.hpp"
-#include "unit/io/run_scene_fixture.hpp"
+#include "reckon/results/run_analysis.hpp"
+#include "reckon/results/saved_fields.hpp"
+#include "unit/run/run_scene_fixture.hpp"
 
 namespace reckon {
 namespace {

@@ -11,12 +11,12 @@
 #include <utility>
 
 #include "reckon/core/error.hpp"
-#include "reckon/io/checkpoint.hpp"
-#include "reckon/io/saved_fields.hpp"
+#include "reckon/output/checkpoint.hpp"
 #include "reckon/report/page.hpp"
 #include "reckon/report/piece.hpp"
 #include "reckon/report/watch_version.hpp"
-#include "unit/io/run_scene_fixture.hpp"
+#include "reckon/results/saved_fields.hpp"
+#include "unit/run/run_scene_fixture.hpp"
 
 namespace reckon {
 namespace {

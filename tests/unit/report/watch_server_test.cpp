@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "reckon/report/http_server.hpp"
-#include "unit/io/run_scene_fixture.hpp"
+#include "unit/run/run_scene_fixture.hpp"
 
 namespace reckon {
 namespace {

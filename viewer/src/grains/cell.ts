@@ -5,7 +5,7 @@ import type { Frame } from "../data/frame.ts";
 
 /**
  * The twelve edges of the periodic cell, as pairs of points behind each other; nothing without a
- * cell. A corner's bits say along which edges it is ahead (io/fields.hpp), so an edge leads from a
+ * cell. A corner's bits say along which edges it is ahead (output/fields.hpp), so an edge leads from a
  * corner to the one with a bit more.
  */
 export function cellLines(frame: Frame): number[] {

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reckon/output/history.hpp"
+#include "reckon/output/run_folder.hpp"
+#include "reckon/simulation/config.hpp"
+#include "reckon/text/json_writer.hpp"
+
+namespace reckon {
+
+/// Beyond this share of the smaller grain's diameter, an overlap is no contact any more.
+constexpr double overlap_limit = 0.05;
+
+/// One reason why the figures of a run mean nothing.
+struct VerdictReason {
+  std::string code;  ///< for scripts, e.g. "negative_void_ratio"
+  std::string text;  ///< for people: what, how much, where
+};
+
+/// Whether the figures of a run mean something. A new reason is one more function in the list
+/// `checks` of run_verdict.cpp.
+struct RunVerdict {
+  std::vector<VerdictReason> reasons;
+  std::vector<std::string> notes;  ///< what a reader must know besides
+
+  [[nodiscard]] bool valid() const { return reasons.empty(); }
+  void add(std::string code, std::string text);
+};
+
+/// What a run says of itself, in its history and its record.
+struct RunEvidence {
+  const SceneConfig& scene;
+  const HistoryTable& history;
+  /// As in run.json; empty where there is none. What a run under way has not reached yet is not
+  /// held against it.
+  std::string status{};
+  std::string message{};  ///< of a failure
+};
+
+/// Looks for negative void ratios, deep overlaps, grains that are outside or have left a sample,
+/// rates that are not quasi-static, a rest that was asked for and not reached, and a failure.
+/// Columns that the history lacks, as in runs of earlier versions, give no reason.
+[[nodiscard]] RunVerdict verdict_on(const RunEvidence& evidence);
+/// The same from the files of a run.
+[[nodiscard]] RunVerdict verdict_of(const RunFolder& folder);
+
+/// What comes before all figures: a line, then a line for each reason, then the notes. Empty for a
+/// valid run without notes.
+[[nodiscard]] std::string verdict_text(const RunVerdict& verdict);
+/// `valid`, `reasons` with a code and a text each, and `notes`.
+void write_verdict(JsonWriter& json, const RunVerdict& verdict);
+
+}  // namespace reckon

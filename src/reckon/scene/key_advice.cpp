@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Sand Reckoner contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reckon/scene/key_advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "reckon/scene/scene_schema.hpp"
+#include "reckon/text/nearest_name.hpp"
+
+namespace reckon {
+
+std::string advice_on_unknown_key(const std::string& name, std::span<const std::string> known) {
+  if (const auto near = nearest_name(name, known)) return fmt::format("Did you mean `{}`?", *near);
+  std::vector<std::string> homes;
+  const SceneSchema schema = scene_schema();
+  for (const SchemaRow& row : schema.rows) {
+    if (row.name != name) continue;
+    homes.push_back(row.table.empty() ? "the top, before any table" : table_header(row.table));
+  }
+  constexpr std::size_t most_homes = 4;
+  if (!homes.empty() && homes.size() <= most_homes) {
+    std::string all = homes[0];
+    for (std::size_t n = 1; n < homes.size(); ++n) {
+      all += (n + 1 < homes.size() ? ", " : " or ") + homes[n];
+    }
+    return fmt::format("`{}` belongs {} {}.", name, all.starts_with('[') ? "in" : "at", all);
+  }
+  for (const std::string& other : known) {
+    if (other.ends_with('_' + name)) return fmt::format("Did you mean `{}`?", other);
+  }
+  std::vector<std::string> all{known.begin(), known.end()};
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return fmt::format("Known here: {}.", fmt::join(all, ", "));
+}
+
+std::string advice_on_dimension(const SceneKey& key, const Quantity& quantity,
+                                const std::string& text) {
+  constexpr Dimension angle{.mass = 0, .length = 0, .time = 0, .angle = 1};
+  if (key.name == "friction" && quantity.dimension == angle) {
+    return fmt::format("A coefficient of friction is the tangent of an angle: write {:.4g}.",
+                       std::tan(quantity.value));
+  }
+  if (key.unit == "1") return "Write a number without a unit.";
+  if (quantity.dimension != Dimension{}) return fmt::format("Give it in {}.", key.unit);
+  return fmt::format("Write \"{} {}\".", text, key.unit);
+}
+
+}  // namespace reckon
