@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that every relative link of the Markdown pages leads to a file, and to a heading of it."""
+"""Checks that every relative link of the Markdown pages leads to a file, and to a heading or anchor
+of it."""
 import pathlib
 import re
 import subprocess
@@ -18,9 +19,9 @@ def without_code(text):
 
 
 def anchors(text):
-    """The anchors that a page's headings get."""
-    found = set()
+    """The anchors of a page: those of its headings, and those that it names itself."""
     fenceless = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
+    found = set(re.findall(r'<a id="([^"]+)">', fenceless))
     for heading in re.findall(r"^#+ +(.*)$", fenceless, re.MULTILINE):
         plain = re.sub(r"[^\w\- ]", "", heading.strip().lower())
         found.add(plain.replace(" ", "-"))
@@ -43,7 +44,7 @@ def broken_links(page, root=ROOT):
                 yield f"{where}: '{target}' does not exist"
             elif anchor and goal.suffix == ".md":
                 if anchor not in anchors(goal.read_text(encoding="utf-8")):
-                    yield f"{where}: '{target}': that page has no such heading"
+                    yield f"{where}: '{target}': that page has no such heading or anchor"
 
 
 def main():

@@ -15,13 +15,13 @@ class DocLinks(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder).resolve()
             (root / "docs").mkdir()
-            (root / "docs" / "other.md").write_text("# Other page\n\n## The `skin`, and why\n")
+            (root / "docs" / "other.md").write_text("# Other page\n\n## The `skin`, and why\n\n- <a id=\"term\"></a>**Term**: one.\n")
             page = root / "docs" / "page.md"
             page.write_text(text)
             return list(doc_links.broken_links(page, root))
 
     def test_good_links(self):
-        self.assertEqual(self.broken("[a](other.md) [b](other.md#the-skin-and-why) [c](../docs/)\n"
+        self.assertEqual(self.broken("[a](other.md) [b](other.md#the-skin-and-why) [c](../docs/) [t](other.md#term)\n"
                                      "[d](https://example.org) ![e](other.md \"title\")\n"
                                      "# Here\n[f](#here)\n"), [])
 

@@ -46,6 +46,24 @@ class Statements(unittest.TestCase):
                 self.assertNotRegex(source.read_text(encoding="utf-8"), r"#include .*(_file\.hpp|fstream|hdf5)", source)
         self.assertGreater(len(rows), 10)
 
+    def test_recipes_name_files_and_code_that_exist(self):
+        text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+        recipes = text[text.index("\n## Recipes"):text.index("\n## Many processes")]
+        self.assertEqual(len(re.findall(r"^### ", recipes, re.MULTILINE)), 5)
+        for recipe in recipes.split("\n### ")[1:]:
+            self.assertEqual(re.findall(r"^(\d)\. ", recipe, re.MULTILINE), ["1", "2", "3", "4"], recipe)
+        spans = set(re.findall(r"`([^`]+)`", recipes))
+        paths = {span for span in spans if "/" in span and " " not in span and "NAME" not in span}
+        self.assertGreater(len(paths), 15)
+        for path in paths:
+            self.assertTrue((ROOT / path).exists(), path)
+        sources = [file for folder in ("src", "tests") for file in sorted((ROOT / folder).rglob("*.?pp"))]
+        code = "\n".join(file.read_text(encoding="utf-8") for file in sources)
+        names = {span.removesuffix("()") for span in spans if re.fullmatch(r"[A-Za-z]\w+(\(\))?", span)}
+        self.assertGreater(len(names), 10)
+        for name in names:
+            self.assertRegex(code, rf"\b{name}\b", name)
+
     def test_a_release_build_needs_no_googletest_and_quickstart_builds_what_pages_use(self):
         presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))
         release = next(preset for preset in presets["configurePresets"] if preset["name"] == "release")
