@@ -8,6 +8,7 @@
 #include <string>
 
 #include "command_pages.hpp"
+#include "reckon/output/grain_fields.hpp"
 #include "reckon/output/history.hpp"
 #include "reckon/scene/scene_schema.hpp"
 
@@ -18,11 +19,11 @@ void add_reference_command(CLI::App& app) {
   auto page = std::make_shared<std::string>();
   command
       ->add_option("page", *page,
-                   "scene: every key of a scene; history: columns of history.csv; commands: every "
-                   "command and option (these in Markdown); man: the same as a manual page; bash: "
-                   "completion for bash")
+                   "scene: every key of a scene; history: columns of history.csv; fields: what is "
+                   "saved of each grain; commands: every command and option (these in Markdown); "
+                   "man: the same as a manual page; bash: completion for bash")
       ->required()
-      ->check(CLI::IsMember({"scene", "history", "commands", "man", "bash"}));
+      ->check(CLI::IsMember({"scene", "history", "fields", "commands", "man", "bash"}));
   command->footer(
       "Examples:\n"
       "  reckon reference scene | less\n"
@@ -32,6 +33,7 @@ void add_reference_command(CLI::App& app) {
     std::string text;
     if (*page == "scene") text = scene_reference_markdown();
     if (*page == "history") text = history_reference_markdown();
+    if (*page == "fields") text = grain_fields_markdown();
     if (*page == "commands") text = commands_markdown(app);
     if (*page == "man") text = manual_page(app);
     if (*page == "bash") text = bash_completion(app);

@@ -23,20 +23,17 @@ export function frameOf(
   wallDisplacement: number[] = [],
   membrane: { position: number[]; corners: number[] } = { position: [], corners: [] },
   cell: { shift: number[]; corners: number[] } = { shift: [], corners: [] },
+  fields: Record<string, Float32Array> = {},
 ): Frame {
   const contacts = [...pairs, ...walls];
   const radii = Float32Array.from(grains, ({ radius }) => radius ?? 1);
   const arrays: Record<string, Numbers> = {
     id: Uint32Array.from(grains, ({ id }) => id),
     shape: new Uint32Array(grains.length),
-    touching: new Uint16Array(grains.length),
     position: Float32Array.from(grains.flatMap(({ position }) => position)),
     orientation: Float32Array.from(grains.flatMap(({ orientation }) => orientation ?? [1, 0, 0, 0])),
-    velocity: new Float32Array(3 * grains.length),
-    spin: new Float32Array(3 * grains.length),
     radius: radii,
     equivalent_radius: radii,
-    mass: new Float32Array(grains.length),
     ends: Uint32Array.from(contacts.flatMap(({ ends }) => ends)),
     force: Float32Array.from(contacts.flatMap(({ force }) => force)),
     branch: Float32Array.from(contacts.flatMap(({ branch }) => branch)),
@@ -47,6 +44,7 @@ export function frameOf(
     membrane_corners: Uint32Array.from(membrane.corners),
     cell_shift: Float32Array.from(cell.shift),
     cell_corners: Float32Array.from(cell.corners),
+    ...fields,
   };
   const text: FrameText = { step: 1, time: 0.5, has_contacts: true, pairs: pairs.length };
   return new Frame(new Piece(text, new Map(Object.entries(arrays))));

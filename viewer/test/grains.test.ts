@@ -7,7 +7,7 @@ import { cellLines } from "../src/grains/cell.ts";
 import { merged } from "../src/grains/merged.ts";
 import { Detail, Pace } from "../src/grains/pace.ts";
 import { firstHit, pickGrain, turned } from "../src/grains/pick.ts";
-import { colourRange, displacement, rotation } from "../src/grains/quantities.ts";
+import { colourRange, displacement, quantitiesOf, rotation } from "../src/grains/quantities.ts";
 import { ball, type Surface } from "../src/grains/surfaces.ts";
 import type { Wall } from "../src/data/run.ts";
 import { frameOf, near } from "./frames.ts";
@@ -233,4 +233,21 @@ test("a grain that is drawn across the border has come no farther than its own w
   const start = frameOf(grain(0.9), [], [], [], undefined, { shift: [0, 0, 0], corners: [] });
   const now = frameOf(grain(-0.9), [], [], [], undefined, { shift: [2, 0, 0], corners: [] });
   near(displacement(now, start, 0), 0.2);
+});
+
+test("a field of the run can colour the grains without more code", () => {
+  const frame = frameOf([{ id: 0, position: [0, 0, 0] }, { id: 1, position: [1, 0, 0] }], [], [], [], undefined, undefined, {
+    flux: Float32Array.from([3, 4, 12, 0, 0, -2]),
+    charge: Float32Array.from([-1, 5]),
+  });
+  const given = { unit: "C", whole: false, needs_contacts: false };
+  const list = quantitiesOf([
+    { name: "flux", label: "Flux", components: 3, ...given },
+    { name: "charge", label: "Charge", components: 1, ...given },
+    { name: "absent", label: "Absent", components: 1, ...given },
+  ]);
+  const values = (id: string) => [...list.find((quantity) => quantity.id === id)!.of(frame, frame)];
+  assert.deepEqual(values("flux"), [13, 2]);
+  assert.deepEqual(values("charge"), [-1, 5]);
+  assert.deepEqual(values("absent"), [Number.NaN, Number.NaN]);
 });

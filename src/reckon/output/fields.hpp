@@ -15,6 +15,8 @@
 
 namespace reckon {
 
+struct GrainField;
+
 /// A membrane at one step.
 struct MembraneAtStep {
   VtkCells triangles;
@@ -43,14 +45,14 @@ struct FieldsAtStep {
 /// Takes the image of each grain that is in the cell, as it moves there.
 void put_into(const PeriodicCell& cell, FieldsAtStep& fields);
 
-/// Writes one point per grain, by id: `id`, `shape`, `radius` (of the bounding sphere),
-/// `equivalent_radius` (of the sphere of equal volume), `mass`, `orientation` (quaternion w, x, y,
-/// z, body to world), `velocity` and `angular_velocity` (world frame, half a step before),
-/// `speed`, `prescribed`, `contacts` (touching partners, walls included), `contact_force` (net),
-/// in a periodic cell `cell_shift` (what leads to the grain's own way) and, where asked for,
-/// `rank`. Data of the whole file: `TimeValue` and `wall_displacement`.
+/// Writes one point per grain, by id, with the fields of the table (output/grain_fields.hpp). Data
+/// of the whole file: `TimeValue` and `wall_displacement`.
 void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& fields,
                         std::span<const ShapeSummary> shapes, double density);
+/// The same with another table.
+void write_grain_points(const std::filesystem::path& path, const FieldsAtStep& fields,
+                        std::span<const ShapeSummary> shapes, double density,
+                        std::span<const GrainField> table);
 
 /// Writes one line per touching pair from centre to centre, or from a grain's centre to its foot on
 /// a wall: `force` on the first grain, `force_magnitude`, `grain`, `partner` (grain id or wall
@@ -72,9 +74,8 @@ void write_walls(const std::filesystem::path& path, const FieldsAtStep& fields,
                  std::span<const ShapeSummary> shapes, std::span<const Wall> walls,
                  std::optional<WallId> mould);
 
-/// Writes the grains' true surfaces where the grains are, with `id`, `shape` and `speed` per
-/// triangle, and per point what write_grain_points tells of the grain, as far as it is known.
-/// `surfaces[shape]` are in the body frame.
+/// Writes the grains' true surfaces where the grains are, with the fields that the table puts on
+/// vertices and triangles. `surfaces[shape]` are in the body frame.
 void write_grain_surfaces(const std::filesystem::path& path, const FieldsAtStep& fields,
                           std::span<const ShapeSummary> shapes, double density,
                           std::span<const TriangleMesh> surfaces);

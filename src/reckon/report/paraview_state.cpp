@@ -12,6 +12,7 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/vtk_xml.hpp"
+#include "reckon/output/grain_fields.hpp"
 #include "reckon/output/history.hpp"
 #include "reckon/report/run_shapes.hpp"
 #include "reckon/results/saved_fields.hpp"
@@ -87,6 +88,15 @@ std::string python_text(std::string_view text) {
   return quoted + "\")";
 }
 
+/// The units of the fields as a dictionary of Python.
+std::string python_units() {
+  std::string units = "{";
+  for (const GrainField& field : grain_fields()) {
+    if (!field.unit.empty()) units += fmt::format("\"{}\": \"{}\", ", field.name, field.unit);
+  }
+  return units + "\"displacement\": \"m\", \"rotation\": \"degrees\"}";
+}
+
 }  // namespace
 
 ParaviewState write_paraview_state(const RunFolder& folder) {
@@ -110,6 +120,7 @@ ParaviewState write_paraview_state(const RunFolder& folder) {
   replace(text, "@counted_from@", fmt::format("{}", read_fields(folder, start).time));
   replace(text, "@of_stage@",
           start == saved.front() ? std::string{} : ", at which the last stage began");
+  replace(text, "@units@", python_units());
   replace(text, "@folder@",
           python_text(std::filesystem::absolute(folder.root()).lexically_normal().string()));
   write_file(target / "state.py", text);

@@ -14,6 +14,8 @@ paraview.simple._DisableFirstRenderCameraReset()
 
 counted_from = @counted_from@  # [s]: displacement and rotation count from this saved time@of_stage@
 
+units = @units@  # of what can colour the grains
+
 # ParaView's window does not tell a script where it lies; then the run must be where it was.
 folder = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) if "__file__" in globals() else @folder@
 
@@ -182,10 +184,8 @@ def draw(arguments):
 
     left = new_view("grains", f"Grains by {field}")
     main = draw_grains(moved, shapes, left)
-    units = {"displacement": " [m]", "rotation": " [degrees]", "speed": " [m/s]", "velocity": " [m/s]",
-             "angular_velocity": " [rad/s]", "contact_force": " [N]", "mass": " [kg]", "radius": " [m]",
-             "equivalent_radius": " [m]"}
-    colour(main, left, "POINTS", field, field.replace("_", " ") + units.get(field, ""), "Viridis (matplotlib)")
+    unit = f" [{units[field]}]" if field in units else ""
+    colour(main, left, "POINTS", field, field.replace("_", " ") + unit, "Viridis (matplotlib)")
     draw_boundary(walls, membrane, cell, left)
     views = [left]
 

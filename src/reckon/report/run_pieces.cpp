@@ -16,6 +16,7 @@
 #include "reckon/avatar/shape_statistics.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
+#include "reckon/output/grain_fields.hpp"
 #include "reckon/output/history.hpp"
 #include "reckon/report/piece.hpp"
 #include "reckon/report/run_shapes.hpp"
@@ -131,6 +132,23 @@ struct PackedMeshes {
   }
 };
 
+/// What the page can colour grains by, besides what it computes itself.
+void add_fields(JsonWriter& json) {
+  json.begin_array("fields");
+  for (const GrainField& field : grain_fields()) {
+    if (field.label.empty()) continue;
+    json.begin_object();
+    json.value("name", field.name);
+    json.value("label", field.label);
+    json.value("unit", field.unit);
+    json.value("components", field.components);
+    json.value("whole", field.numbers != FieldNumbers::real);
+    json.value("needs_contacts", field.needs_contacts);
+    json.end();
+  }
+  json.end();
+}
+
 double extent_of(const DisplayMesh& display) {
   double extent = 0;
   for (const Vec3& vertex : display.mesh.vertices) {
@@ -227,6 +245,7 @@ std::string RunPieces::head(const std::vector<std::uint64_t>& left_out) {
     if (std::find(left_out.begin(), left_out.end(), step) == left_out.end()) json.value({}, step);
   }
   json.end();
+  add_fields(json);
   read_shapes(scene);
   add_shapes(*shapes_, piece);
   return piece.finish();
@@ -245,14 +264,10 @@ std::string RunPieces::frame(std::uint64_t step) {
   }
   std::vector<std::uint32_t> id;
   std::vector<std::uint32_t> shape;
-  std::vector<std::uint16_t> touching;
   std::vector<float> position;
   std::vector<float> orientation;
-  std::vector<float> velocity;
-  std::vector<float> spin;
   std::vector<float> radius;
   std::vector<float> equivalent_radius;
-  std::vector<float> mass;
   std::vector<float> cell_shift;
   const auto append = [](std::vector<float>& to, const Vec3& v) {
     for (int axis = 0; axis < 3; ++axis) to.push_back(static_cast<float>(v[axis]));
@@ -260,15 +275,11 @@ std::string RunPieces::frame(std::uint64_t step) {
   for (const SavedGrain& grain : fields.grains) {
     id.push_back(grain.id.get());
     shape.push_back(grain.shape.get());
-    touching.push_back(static_cast<std::uint16_t>(std::min(grain.touching, 65535U)));
     append(position, grain.position);
     const Quaternion& q = grain.orientation;
     for (const double part : {q.w, q.x, q.y, q.z}) orientation.push_back(static_cast<float>(part));
-    append(velocity, grain.velocity);
-    append(spin, grain.angular_velocity);
     radius.push_back(static_cast<float>(grain.radius));
     equivalent_radius.push_back(static_cast<float>(grain.equivalent_radius));
-    mass.push_back(static_cast<float>(grain.mass));
     if (!fields.cell_corners.empty()) append(cell_shift, grain.cell_shift);
   }
   std::vector<std::uint32_t> ends;  // rows of two grains, or of a grain and the number of a wall
@@ -304,14 +315,14 @@ std::string RunPieces::frame(std::uint64_t step) {
   piece.json().value("pairs", pairs);
   piece.add("id", id);
   piece.add("shape", shape);
-  piece.add("touching", touching);
   piece.add("position", position, 3);
   piece.add("orientation", orientation, 4);
-  piece.add("velocity", velocity, 3);
-  piece.add("spin", spin, 3);
   piece.add("radius", radius);
   piece.add("equivalent_radius", equivalent_radius);
-  piece.add("mass", mass);
+  for (const SavedField& field : fields.shown) {
+    piece.add(field.name, std::vector<float>(field.numbers.begin(), field.numbers.end()),
+              field.components);
+  }
   piece.add("cell_shift", cell_shift, 3);
   piece.add("ends", ends, 2);
   piece.add("force", force, 3);

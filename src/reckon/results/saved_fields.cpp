@@ -47,6 +47,7 @@ class Column {
     }
     return static_cast<std::uint32_t>(value);
   }
+  [[nodiscard]] const std::vector<double>& numbers() const { return numbers_; }
   [[nodiscard]] Vec3 vector(std::size_t row) const {
     return {numbers_[3 * row], numbers_[3 * row + 1], numbers_[3 * row + 2]};
   }
@@ -61,7 +62,8 @@ class Column {
   std::vector<double> numbers_;
 };
 
-void read_grains(const std::filesystem::path& path, SavedFields& fields) {
+void read_grains(const std::filesystem::path& path, std::span<const GrainField> table,
+                 SavedFields& fields) {
   const VtkReader file{path};
   const std::size_t rows = file.tuples(VtkSection::points, "Points");
   const auto column = [&](const char* name, std::uint32_t components) {
@@ -90,6 +92,11 @@ void read_grains(const std::filesystem::path& path, SavedFields& fields) {
     if (row > 0 && fields.grains[row - 1].id >= fields.grains[row].id) {
       refuse(path, "grains are not in the order of their ids");
     }
+  }
+  for (const GrainField& field : table) {
+    if (field.label.empty() || !file.has(VtkSection::point_data, field.name)) continue;
+    fields.shown.push_back(
+        {field.name, field.components, column(field.name.c_str(), field.components).numbers()});
   }
   fields.time = Column{file, path, VtkSection::field_data, "TimeValue", 1, 1}.number(0);
   const std::size_t walls = file.tuples(VtkSection::field_data, "wall_displacement");
@@ -183,13 +190,14 @@ SceneConfig scene_of_run(const RunFolder& folder) {
   return std::move(reading.config);
 }
 
-SavedFields read_fields(const RunFolder& folder, std::uint64_t step) {
+SavedFields read_fields(const RunFolder& folder, std::uint64_t step,
+                        std::span<const GrainField> table) {
   SavedFields fields;
   fields.step = step;
   const auto file = [&](const char* kind) {
     return folder.own(folder.root() / RunFolder::field_name(kind, step));
   };
-  read_grains(file("grains"), fields);
+  read_grains(file("grains"), table, fields);
   const std::filesystem::path contacts = file("contacts");
   fields.has_contacts = std::filesystem::exists(contacts);
   if (fields.has_contacts) read_contacts(contacts, fields);

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "reckon/output/grain_fields.hpp"
 #include "reckon/output/run_folder.hpp"
 #include "reckon/simulation/config.hpp"
 #include "reckon/simulation/simulation.hpp"
@@ -27,11 +30,19 @@ struct SavedGrain {
   Vec3 cell_shift;              ///< from there to where its own way led it; see PeriodicCell [m]
 };
 
+/// A field of the table (output/grain_fields.hpp) that the report page shows, as it was saved.
+struct SavedField {
+  std::string name;
+  std::uint32_t components{1};
+  std::vector<double> numbers;  ///< grain by grain
+};
+
 /// The assembly at one saved step.
 struct SavedFields {
   std::uint64_t step{0};
   double time{0};                       ///< [s]
   std::vector<SavedGrain> grains;       ///< sorted by id
+  std::vector<SavedField> shown;        ///< fields with a label, as far as the file has them
   bool has_contacts{false};             ///< whether the run wrote contacts (output.contacts)
   std::vector<ContactRecord> contacts;  ///< of pairs, then with walls
   std::vector<Vec3> wall_displacement;  ///< by wall, since time zero; empty where not known [m]
@@ -46,6 +57,7 @@ struct SavedFields {
 
 /// Reads the ParaView files that a run wrote at `step`. Throws Error when there are none, or when
 /// they are damaged or contradict each other.
-[[nodiscard]] SavedFields read_fields(const RunFolder& folder, std::uint64_t step);
+[[nodiscard]] SavedFields read_fields(const RunFolder& folder, std::uint64_t step,
+                                      std::span<const GrainField> table = grain_fields());
 
 }  // namespace reckon

@@ -18,14 +18,10 @@ export class Frame {
   readonly pairs: number;
   readonly id: Uint32Array;
   readonly shape: Uint32Array;
-  readonly touching: Uint16Array;
   readonly position: Float32Array;
   readonly orientation: Float32Array; // w, x, y, z
-  readonly velocity: Float32Array;
-  readonly spin: Float32Array;
   readonly radius: Float32Array;
   readonly equivalentRadius: Float32Array;
-  readonly mass: Float32Array;
   readonly cellShift: Float32Array; // from a grain's image in the periodic cell to its own way; empty without
   readonly ends: Uint32Array;
   readonly force: Float32Array; // on the first end
@@ -38,21 +34,17 @@ export class Frame {
   readonly cellCorners: Float32Array; // eight, of the periodic cell; empty where there is none
   private stresses: GrainStress | null = null;
 
-  constructor(piece: Piece<FrameText>) {
+  constructor(private readonly piece: Piece<FrameText>) {
     this.step = piece.text.step;
     this.time = piece.text.time;
     this.hasContacts = piece.text.has_contacts;
     this.pairs = piece.text.pairs;
     this.id = piece.array("id") as Uint32Array;
     this.shape = piece.array("shape") as Uint32Array;
-    this.touching = piece.array("touching") as Uint16Array;
     this.position = piece.array("position") as Float32Array;
     this.orientation = piece.array("orientation") as Float32Array;
-    this.velocity = piece.array("velocity") as Float32Array;
-    this.spin = piece.array("spin") as Float32Array;
     this.radius = piece.array("radius") as Float32Array;
     this.equivalentRadius = piece.array("equivalent_radius") as Float32Array;
-    this.mass = piece.array("mass") as Float32Array;
     this.cellShift = piece.array("cell_shift") as Float32Array;
     this.ends = piece.array("ends") as Uint32Array;
     this.force = piece.array("force") as Float32Array;
@@ -70,6 +62,11 @@ export class Frame {
   }
   get contacts(): number {
     return this.deepest.length;
+  }
+
+  /** A saved field, grain by grain; null where this frame does not have it. */
+  field(name: string): Float32Array | null {
+    return this.piece.has(name) ? (this.piece.array(name) as Float32Array) : null;
   }
 
   /** The row of a grain, or -1. */

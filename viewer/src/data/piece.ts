@@ -38,6 +38,10 @@ export class Piece<Text = Record<string, unknown>> {
     private readonly arrays: ReadonlyMap<string, Numbers>,
   ) {}
 
+  has(name: string): boolean {
+    return this.arrays.has(name);
+  }
+
   array(name: string): Numbers {
     const found = this.arrays.get(name);
     if (!found) throw new Error(`the data have no array "${name}"`);

@@ -68,6 +68,16 @@ export interface Performance {
   rank: RankPerformance[];
 }
 
+/** A saved field of grains, by whose magnitude they can be coloured. */
+export interface FieldText {
+  name: string;
+  label: string;
+  unit: string;
+  components: number;
+  whole: boolean;
+  needs_contacts: boolean;
+}
+
 export interface HeadText {
   name: string;
   title: string;
@@ -86,6 +96,7 @@ export interface HeadText {
   cell: boolean; // periodic
   saved_frames: number;
   frames: number[];
+  fields: FieldText[];
   shapes_missing: string;
   measures: string[];
   shapes: ShapeText[];

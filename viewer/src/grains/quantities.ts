@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
 import type { Frame } from "../data/frame.ts";
+import type { FieldText } from "../data/run.ts";
 
 /** What grains can be coloured by. `start` is the frame that displacements are counted from. */
 export interface Quantity {
@@ -19,8 +20,10 @@ function perGrain(frame: Frame, value: (row: number) => number): Float32Array {
   return values;
 }
 
-function length(vectors: Float32Array, row: number): number {
-  return Math.hypot(vectors[3 * row], vectors[3 * row + 1], vectors[3 * row + 2]);
+/** Of a vector; a single number keeps its sign. */
+function magnitude(numbers: Float32Array, components: number, row: number): number {
+  if (components === 1) return numbers[row];
+  return Math.hypot(...numbers.subarray(components * row, components * (row + 1)));
 }
 
 /** Where a grain's own way led it along an axis [m]: drawn is its image in the periodic cell. */
@@ -51,7 +54,7 @@ export function rotation(frame: Frame, start: Frame, row: number): number {
   return (2 * Math.atan2(Math.hypot(x, y, z), Math.abs(w)) * 180) / Math.PI;
 }
 
-export const quantities: readonly Quantity[] = [
+const computed: readonly Quantity[] = [
   {
     id: "displacement",
     label: "Displacement",
@@ -83,35 +86,34 @@ export const quantities: readonly Quantity[] = [
     of: (frame) => frame.stress().deviator,
   },
   {
-    id: "coordination",
-    label: "Touching partners, walls included",
-    short: "coordination",
-    unit: "",
-    whole: true,
-    of: (frame) => Float32Array.from(frame.touching),
-  },
-  {
     id: "size",
     label: "Diameter of the sphere of equal volume",
     short: "size",
     unit: "m",
     of: (frame) => frame.equivalentRadius.map((radius) => 2 * radius),
   },
-  {
-    id: "speed",
-    label: "Speed",
-    short: "speed",
-    unit: "m/s",
-    of: (frame) => perGrain(frame, (row) => length(frame.velocity, row)),
-  },
-  {
-    id: "spin",
-    label: "Angular speed",
-    short: "angular speed",
-    unit: "rad/s",
-    of: (frame) => perGrain(frame, (row) => length(frame.spin, row)),
-  },
 ];
+
+/** What a run can be coloured by: what is computed here, and its saved fields. */
+export function quantitiesOf(fields: readonly FieldText[]): Quantity[] {
+  return [...computed, ...fields.map(savedQuantity)];
+}
+
+function savedQuantity(field: FieldText): Quantity {
+  const { name, label, unit, components, whole } = field;
+  return {
+    id: name,
+    label,
+    short: label.charAt(0).toLowerCase() + label.slice(1),
+    unit,
+    needsContacts: field.needs_contacts,
+    whole,
+    of: (frame) => {
+      const saved = frame.field(name);
+      return perGrain(frame, (row) => (saved ? magnitude(saved, components, row) : Number.NaN));
+    },
+  };
+}
 
 /** Between the 2nd and the 98th percentile, so that a single fast grain does not darken the rest. */
 export function colourRange(values: Float32Array): [number, number] {

@@ -5,7 +5,7 @@ import type { Frame } from "../data/frame.ts";
 import type { Run } from "../data/run.ts";
 import { chooser, fillChoices, h, replace } from "../dom.ts";
 import { number, quantity, scaled, whole } from "../format.ts";
-import { colourRange, displacement, quantities, type Quantity, rotation } from "./quantities.ts";
+import { colourRange, displacement, quantitiesOf, type Quantity, rotation } from "./quantities.ts";
 import { type Axis, GrainView, type GrainStyle } from "./view.ts";
 
 /** The three-dimensional view with its controls, the slider over saved times, and the picked grain. */
@@ -18,7 +18,8 @@ export class GrainSection {
   private frame: Frame | null = null;
   private start: Frame | null = null;
   private frameNumber = 0;
-  private quantity: Quantity = quantities[0];
+  private readonly quantities: Quantity[];
+  private quantity: Quantity;
   private map = "viridis";
   private held: [number, number] | null = null;
   private selectedId: number | null = null;
@@ -65,6 +66,8 @@ export class GrainSection {
 
   constructor(private runs: Run[]) {
     this.run = runs[0];
+    this.quantities = quantitiesOf(this.run.text.fields);
+    this.quantity = this.quantities[0];
     this.view = new GrainView(this.canvas);
     this.view.picked = (row) => this.pick(row);
     this.slider.addEventListener("input", () => void this.show(Number(this.slider.value)));
@@ -267,10 +270,10 @@ export class GrainSection {
         ),
       chooser(
         "Colour by",
-        quantities.map(({ id, short }) => ({ value: id, label: short })),
+        this.quantities.map(({ id, short }) => ({ value: id, label: short })),
         this.quantity.id,
         (value) => {
-          this.quantity = quantities.find(({ id }) => id === value) ?? quantities[0];
+          this.quantity = this.quantities.find(({ id }) => id === value) ?? this.quantities[0];
           this.held = null;
           hold.checked = false;
           this.colour();
@@ -404,13 +407,16 @@ export class GrainSection {
     const rows: [string, string][] = [
       ["Shape", shape ? shape.name : `number ${frame.shape[row]}`],
       ["Diameter", quantity(2 * frame.equivalentRadius[row], "m")],
-      ["Mass", quantity(frame.mass[row], "kg")],
       ["Position", at(frame.position, "m")],
       ["Displacement", quantity(displacement(frame, start, row), "m")],
       ["Rotation", quantity(rotation(frame, start, row), "°")],
-      ["Velocity", at(frame.velocity, "m/s")],
-      ["Partners", String(frame.touching[row])],
     ];
+    for (const { name, unit, components } of this.run.text.fields) {
+      const saved = frame.field(name);
+      if (!saved) continue;
+      const title = name.charAt(0).toUpperCase() + name.slice(1).replaceAll("_", " ");
+      rows.push([title, components === 3 ? at(saved, unit) : quantity(saved[row], unit)]);
+    }
     if (frame.hasContacts) {
       const { mean, deviator } = frame.stress();
       rows.push(

@@ -68,7 +68,7 @@ test("grains are drawn, and turning, slicing, colours and contact forces change 
     assert.notEqual(hash, last, `${what} changed nothing`);
     last = hash;
   };
-  for (const quantity of ["rotation", "stress", "deviator", "coordination", "size", "speed", "spin"]) {
+  for (const quantity of ["rotation", "stress", "deviator", "size", "mass", "velocity", "angular_velocity", "contacts", "contact_force"]) {
     await field(page, "Colour by", "select").selectOption(quantity);
     await changed(`colouring by ${quantity}`);
   }
@@ -116,7 +116,7 @@ test("a grain is picked by the mouse, by the keyboard and by its number", async 
   const grain = await picked.getAttribute("data-grain");
   assert.match(grain, /^\d+$/);
   const numbers = await picked.innerText();
-  for (const word of ["Diameter", "Displacement", "Rotation", "Partners", "Mean stress"]) {
+  for (const word of ["Diameter", "Displacement", "Rotation", "Contacts", "Mean stress"]) {
     assert.ok(numbers.includes(word), word);
   }
   await page.keyboard.press("Escape");
