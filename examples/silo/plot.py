@@ -79,7 +79,7 @@ def main() -> None:
         axes.plot(1e3 * silo.depth, silo.stress, "o", color=colour, label=f"measured, wall friction {friction:g}")
         axes.plot(1e3 * silo.depth, law, color=colour, label=f"Janssen, K = {silo.ratio:.2f}")
         print(
-            f"wall friction {friction:g}: {100 * silo.mobilised:.1f} % of it at work, K = {silo.ratio:.2f}; the floor"
+            f"wall friction {friction:g}: {100 * silo.mobilised:.1f} % of it mobilised, K = {silo.ratio:.2f}; the floor"
             f" carries {100 * silo.on_floor:.1f} % of the weight, {100 * law[0] / weight[0]:.1f} % after Janssen"
         )
     axes.plot(1e3 * silo.depth, weight, "k--", label="weight above")

@@ -28,7 +28,7 @@ def figures(run: Path) -> dict[str, float]:
         "dilatancy angle there [°]": shear["dilatancy_angle_deg"],
         "friction angle over the last fifth [°]": curves.late_friction_angle(rows),
         "void ratio at 15 % strain": rows["void_ratio"][-1],
-        "stress by contacts and by walls apart, median row [%]": 100 * shear["stress_disagreement"],
+        "difference of stress by contacts and by walls, median row [%]": 100 * shear["stress_disagreement"],
         "energy balance error, of the energy turned over [%]": curves.energy_error_percent(answer),
     }
 

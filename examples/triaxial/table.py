@@ -53,7 +53,7 @@ def main() -> None:
         "friction angle over the last fifth",
         "void ratio at 15 % strain",
         "peak with the cell pressure for σ₃",
-        "stress by contacts and by walls and membrane apart, median row (largest)",
+        "difference of stress by contacts and by walls and membrane, median row (max)",
         "energy balance error of the whole test, of the energy turned over",
     ]
     columns = [figures(work / f"{kind}-{kpa}", kpa) for kind, kpa in tests]
