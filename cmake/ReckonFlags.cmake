@@ -15,7 +15,7 @@ target_include_directories(reckon_flags INTERFACE
 # become one instruction; it changes no result.)
 target_compile_options(reckon_flags INTERFACE -ffp-contract=off -fno-math-errno)
 
-# Warnings are the project's own business, not that of those who link its libraries.
+# Warnings concern the project itself, not users who link its libraries.
 set(reckon_warnings
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wold-style-cast

@@ -115,7 +115,7 @@ void save(const std::vector<SharedShape>& shapes, const std::filesystem::path& p
   save_library(path, library, {{}, {"reckon.save_shapes"}, {}});
 }
 
-/// A library file whose shapes are read when they are asked for.
+/// A library file whose shapes are read when they are requested.
 class LibraryFile {
  public:
   explicit LibraryFile(const std::filesystem::path& path) : source_{path} {

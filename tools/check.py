@@ -31,7 +31,7 @@ class Outcome:
     passed: int
     failed: int
     skipped: int = 0
-    details: str = ""  # what the reader of the output should see
+    details: str = ""  # what the output should show
 
 
 def run(log, *commands, environment=None):
@@ -100,7 +100,7 @@ def build(preset, *targets):
     make = ["cmake", "--build", "--preset", preset, "-j", str(JOBS)]
     if targets:
         make += ["--target", *targets]
-    # Warnings are errors here whatever the preset says; -k 0 goes on to the faults of other files.
+    # Warnings are errors here, independent of the preset; -k 0 continues with other files.
     return lambda log: run(log, ["cmake", "--preset", preset, "-DRECKON_WARNINGS_AS_ERRORS=ON"],
                            [*make, "--", "--quiet", "-k", "0"])
 
@@ -127,7 +127,7 @@ def count_tests(report, outcome):
         if case.get("status") == "run":
             outcome.passed += 1
         elif skipped is not None and skipped.get("message", "").startswith("SKIP_"):
-            outcome.skipped += 1  # it says so itself
+            outcome.skipped += 1  # it prints it itself
         else:  # failed, or could not be started
             failed += 1
             output = (case.findtext("system-out") or "").strip().splitlines()

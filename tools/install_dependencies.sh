@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # The one list of Debian packages that the project needs, and the installation of those that are
-# missing. docs/dependencies.md says why each is here.
+# missing. docs/dependencies.md has the reason for each.
 #
 #   tools/install_dependencies.sh [--list] GROUP...     groups: build, test, ct, viewer, python, paraview
 set -euo pipefail
@@ -54,7 +54,7 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   exit 0
 fi
 
-# One query for all: names that dpkg does not know make it fail, but it still lists the others.
+# One query for all: it fails for names unknown to dpkg, but it still lists the others.
 installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null |
   sed -n 's/^installed //p' || true)
 # Node.js often comes from elsewhere, npm along with it, and Debian's would be in its way.

@@ -247,7 +247,7 @@ RULES = (
     texts_stand_alone,
     dependencies_are_explained,
 )
-ADVICE = (files_stay_short,)  # told, but no fault
+ADVICE = (files_stay_short,)  # printed, but no fault
 
 
 def main():

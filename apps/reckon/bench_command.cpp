@@ -109,7 +109,7 @@ void add_bench_command(CLI::App& app) {
       ->capture_default_str();
   std::vector<std::string> levels{"auto"};
   for (const SimdLevel level : simd_levels_here()) levels.emplace_back(name_of(level));
-  // Which there are depends on the machine; what the reference says does not.
+  // The choices depend on the machine; the reference must not.
   command
       ->add_option("--simd", options->simd,
                    "Instructions that look for near nodes: auto, scalar, avx2, avx512 or neon")

@@ -8,7 +8,7 @@ class App;
 
 namespace reckon::app {
 
-/// reckon check: finds every fault of a scene and says what its run will do.
+/// reckon check: finds every fault of a scene and prints what its run will do.
 void add_check_command(CLI::App& app);
 
 }  // namespace reckon::app

@@ -12,9 +12,9 @@ class Option;
 
 namespace reckon::app {
 
-// The command line as it is described to CLI11, told in other ways. `root` is the whole program.
+// The description of the command line for CLI11, in other formats. `root` is the whole program.
 
-/// Lets `--help` of the program, and of what is added to it afterwards, say the same.
+/// Gives `--help` of the program, and of later additions, the same format.
 void use_help_format(CLI::App& root);
 /// The value that an option takes and what it means, in the words of `--help`.
 [[nodiscard]] std::string option_summary(const CLI::Option& option);

@@ -70,7 +70,7 @@ void diff(const DiffOptions& options) {
   try {
     comparison = compare_runs(RunFolder{options.first}, RunFolder{options.second});
   } catch (const Error& error) {
-    // Like cmp and diff: 1 says that they differ, so trouble needs another number.
+    // Like cmp and diff: 1 means that they differ, so an error needs another number.
     fmt::print(stderr, "reckon: error: {}\n", printable(error.what()));
     throw CLI::RuntimeError{run_failed};
   }

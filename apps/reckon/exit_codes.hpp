@@ -4,7 +4,7 @@
 
 namespace reckon::app {
 
-/// What reckon tells the shell; docs/reference/command-line.md lists the same.
+/// The exit codes of reckon; docs/reference/command-line.md lists the same.
 enum ExitCode : int {
   success = 0,         ///< done; diff: bit-identical; check: no faults
   input_at_fault = 1,  ///< usage, scene, or files; diff: the runs differ

@@ -48,7 +48,7 @@ const std::map<std::string, ScanStage> stages{
     {"denoise", ScanStage::denoise}, {"threshold", ScanStage::threshold},
     {"split", ScanStage::split},     {"avatars", ScanStage::choose}};
 
-/// The avatars' grid is as fine as the scan unless told otherwise.
+/// The grid of the avatars is as fine as the scan unless an option changes it.
 ShapeResolution resolution_of(const Options& options) {
   ShapeResolution resolution = options.avatars.resolution;
   if (options.nodes > 0) resolution.node_count = options.nodes;

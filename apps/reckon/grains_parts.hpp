@@ -27,7 +27,7 @@ void add_grains_moved(CLI::App& grains);
 void add_grains_statistics(CLI::App& grains);
 
 /// A length such as "0.2mm" [m]. Throws Error naming `option` when it is no length above zero; a
-/// number without unit is refused, since nobody can tell what it means.
+/// number without unit is refused, since its meaning is not known.
 [[nodiscard]] double parse_length(const std::string& option, std::string_view text);
 /// `count` lengths separated by commas, and after them pure numbers up to `total`.
 [[nodiscard]] std::vector<double> parse_lengths(const std::string& option, std::string_view text,
@@ -35,9 +35,8 @@ void add_grains_statistics(CLI::App& grains);
 /// How many metres a unit of length such as "mm" has.
 [[nodiscard]] double parse_length_unit(const std::string& option, const std::string& text);
 
-/// What a library says of how it was made: the words of the command line, without options that do
-/// not change the shapes (where to write, threads, memory, JSON), and these files or folders with
-/// their checksums.
+/// How a library was made: the words of the command line, without options that do not change the
+/// shapes (where to write, threads, memory, JSON), and these files or folders with their checksums.
 [[nodiscard]] Provenance provenance_of(const CommandWords& words,
                                        const std::vector<std::string>& sources);
 

@@ -73,7 +73,7 @@ ShapeResolution resolution_of(const MakeOptions& options) {
   return resolution;
 }
 
-/// Says what is wrong with some of the sources. That of the only one is thrown instead.
+/// Prints the faults of some of the sources. That of a single one is thrown instead.
 void report_faults(const std::vector<Error>& faults, std::size_t sources,
                    const std::string& library) {
   if (sources == 1) throw Error{faults.front().text()};
@@ -311,7 +311,7 @@ struct GenerateOptions {
   GrainStatistics statistics;
 };
 
-/// The generator's statistics that make grains like those of a library, told on the way.
+/// The statistics of the generator that make grains like those of a library; prints its progress.
 GrainStatistics statistics_of(const std::string& library, std::uint64_t seed) {
   const ShapeLibrary model = entries_of(LibrarySource{library});
   fmt::print("trial      roundness  convexity\n");

@@ -45,15 +45,15 @@ std::string version() {
                      build.flags);
 }
 
-/// Some libraries read their settings before main, so the program starts itself once more with what
-/// suits it, unless the user has chosen:
+/// Some libraries read their settings before main, so the program restarts itself once with
+/// suitable settings, unless the user has chosen:
 /// - Idle threads of GNU's OpenMP spin for milliseconds before they sleep. Where other programs
 /// want
 ///   the cores too, each of the many short parallel loops of a step then waits for a turn of the
 ///   scheduler, and a run becomes a hundred times slower. A short spin will do.
 /// - OpenMP takes any OMP_NUM_THREADS, and ends the program where the system refuses so many.
-/// - GNU's malloc can ask for huge pages. The near lists of many pairs are more pages than a
-///   processor remembers the addresses of.
+/// - GNU's malloc can ask for huge pages. The near lists of many pairs need more pages than the
+/// address cache of a processor holds.
 // NOLINTBEGIN(concurrency-mt-unsafe): the environment is read before any thread starts
 void restart_with_settings(char** argv) {
   bool changed = false;
@@ -70,8 +70,8 @@ void restart_with_settings(char** argv) {
   if (changed) execv("/proc/self/exe", argv);  // on failure: go on as we are
 }
 
-/// Whether mpirun, srun or the like started this process. Without them MPI is left alone: starting
-/// it takes a while, and most commands have no use for it.
+/// Whether mpirun, srun or the like started this process. Without them MPI is left alone: its start
+/// takes time, and most commands do not need it.
 bool started_by_launcher() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"}) {
     if (std::getenv(name) != nullptr) return true;
@@ -87,8 +87,9 @@ int complain(const Communicator& ranks, const std::string& problem, int code) {
   return code;
 }
 
-/// Ends a command that threw. An Error that all ranks met is told once, and all end in order. What
-/// only some met is told by them, and takes the others along: they may be waiting for a message.
+/// Ends a command that threw. An Error on all ranks is printed once, and all end in order. An error
+/// on only some ranks is printed by them, and ends the others too, which may be waiting for a
+/// message.
 int end_failed(const Communicator& ranks, const std::string& problem, int code) {
   constexpr double patience = 3;  // [s]
   if (ranks.meet(patience)) return complain(ranks, problem, code);
@@ -162,7 +163,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
 int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   using namespace reckon::app;
   open_missing_streams();
-  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f` then fails, and says so
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f` then fails with an error
   restart_with_settings(argv);
   reckon::skip_hdf5_cleanup_at_exit();
   if (!started_by_launcher()) return end_output(run_command_line(argc, argv, {}));

@@ -109,8 +109,8 @@ std::string explain_extra(const std::vector<std::string>& extras, const CLI::App
   return fmt::format("`{}` has no use for \"{}\".{}", full_name(command), extras.front(), advice);
 }
 
-/// What CLI11 says of one option: "--threads: 1 required INT:INT in [1 - 4096] missing", "page: a
-/// not in {b,c}", "--threads: At Most 1 required but received 2", "scene is required".
+/// The message of CLI11 for one option: "--threads: 1 required INT:INT in [1 - 4096] missing",
+/// "page: a not in {b,c}", "--threads: At Most 1 required but received 2", "scene is required".
 std::string explain_option(const std::string& text, const CLI::App& root) {
   const std::string name = text.substr(0, text.find_first_of(": "));
   const CLI::Option* option = command_used(root).get_option_no_throw(name);

@@ -18,7 +18,7 @@ namespace reckon::app {
 void refuse_odd_numbers(CLI::App& root);
 /// Throws Error for a command that does not exist, with the one that was probably meant.
 void require_known_command(const CLI::App& root, int argc, char** argv);
-/// What to say about a command line that CLI11 refused.
+/// The message for a command line that CLI11 refused.
 [[nodiscard]] std::string explain(const CLI::ParseError& error, const CLI::App& root);
 
 }  // namespace reckon::app

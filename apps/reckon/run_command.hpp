@@ -12,9 +12,9 @@ class Communicator;
 
 namespace reckon::app {
 
-/// reckon run: runs a scene, or goes on with a run, on all `ranks` together. The command holds a
-/// reference to them. `launched`: by mpirun or the like, even if as a single rank; the terminal
-/// that such a process sees is the launcher's.
+/// reckon run: runs a scene, or resumes a run, on all `ranks` together. The command holds a
+/// reference to them. `launched`: by mpirun or the like, even if as a single rank; the terminal of
+/// such a process is that of the launcher.
 void add_run_command(CLI::App& app, const Communicator& ranks, bool launched);
 
 }  // namespace reckon::app

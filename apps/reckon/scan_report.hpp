@@ -12,14 +12,14 @@
 
 namespace reckon::app {
 
-/// What `reckon grains from-scan` tells: lines on the terminal, tables and a JSON file in its
+/// The report of `reckon grains from-scan`: lines on the terminal, tables and a JSON file in its
 /// folder.
 class ScanReport {
  public:
   explicit ScanReport(std::filesystem::path folder);
 
   void begin(const std::string& stage);
-  /// What was assumed, or looks doubtful.
+  /// What was assumed, or is doubtful.
   void remark(const std::string& text);
   void segmented(const Segmentation& scan, ScanStage last);
   /// Also writes quality.csv, contacts.csv and the scene that relaxes the assembly.

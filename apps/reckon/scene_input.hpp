@@ -9,7 +9,7 @@
 
 namespace reckon::app {
 
-/// A scene file read and loaded; `reading.faults` says whether `scene` may be used.
+/// A scene file read and loaded; `scene` may be used only if `reading.faults` is empty.
 struct SceneInput {
   SceneReading reading;
   LoadedScene scene;

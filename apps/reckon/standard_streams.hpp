@@ -10,12 +10,12 @@ namespace reckon::app {
 /// opens would take their place, and get what is meant for the terminal.
 void open_missing_streams();
 
-/// Prints at once on standard output, and goes on where that takes nothing more (its reader is
-/// gone, its disk is full): a run is worth more than its log.
+/// Prints at once on standard output, and ignores that it takes no more (its reader is gone, its
+/// disk is full): a run is worth more than its log.
 void say(std::string_view text);
 
 /// Prints what is left for standard output. Returns `code`, or that of a failed run where a command
-/// did well but its answer could not be written. A reader that has seen enough is no failure.
+/// succeeded but its answer could not be written. A reader that closes early is no failure.
 [[nodiscard]] int end_output(int code);
 
 }  // namespace reckon::app

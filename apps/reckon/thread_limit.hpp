@@ -4,8 +4,8 @@
 
 namespace reckon::app {
 
-/// Threads of one process. Where the system refuses to start as many as are asked for, OpenMP ends
-/// the program.
+/// Threads of one process. OpenMP ends the program if the system refuses to start as many as
+/// requested.
 inline constexpr int most_threads = 1024;
 
 }  // namespace reckon::app

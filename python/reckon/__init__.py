@@ -16,7 +16,7 @@ import os
 # Waiting threads of GNU's OpenMP, which reads this when it is loaded, else spin for milliseconds: see `reckon`'s main.
 if "OMP_WAIT_POLICY" not in os.environ:
     os.environ.setdefault("GOMP_SPINCOUNT", "1000")
-# It ends the program where the system refuses to start as many threads as this asks for.
+# It ends the program if the system refuses to start as many threads as this requests.
 _MOST_THREADS = 1024
 _threads = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
 if _threads.isdigit() and int(_threads) > _MOST_THREADS:

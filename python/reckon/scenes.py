@@ -121,7 +121,7 @@ class Simulation:
     """
 
     def __init__(self, scene: Scene, comm: Any = None) -> None:
-        self._comm = comm  # must live as long
+        self._comm = comm  # must exist as long
         self._compiled = _reckon._Simulation(scene._compiled, handle_of(comm))
 
     def step(self, count: int = 1) -> None:

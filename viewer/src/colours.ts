@@ -22,10 +22,10 @@ export const maps: Record<string, string[]> = {
   gray: ["#303030", "#f0f0f0"],
 };
 
-/** Tells runs and curves apart (Okabe and Ito 2008), darkest first. */
+/** Colours of runs and curves (Okabe and Ito 2008), darkest first. */
 export const hues = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#5b5b5b"];
 
-/** Tells runs apart where colour tells quantities apart. */
+/** Dashes of runs, where colours distinguish quantities. */
 export const dashes: number[][] = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
 
 function channels(colour: string): Rgb {

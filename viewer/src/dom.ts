@@ -68,7 +68,7 @@ export function fillChoices(select: HTMLSelectElement, choices: readonly Choice[
   }
 }
 
-/** Hands a text over as a file to save. */
+/** Offers a text as a file to save. */
 export function download(name: string, text: string): void {
   const url = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
   const link = h("a", { href: url, download: name });

@@ -100,7 +100,7 @@ async function versionOfRun(): Promise<string> {
   return answer.text();
 }
 
-/** Asks now and then whether the run has gone on since `version`. */
+/** Tests at intervals whether the run has changed since `version`. */
 async function follow(source: Source, page: Page, version: string): Promise<void> {
   const light = document.getElementById("live");
   for (;;) {

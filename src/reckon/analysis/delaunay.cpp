@@ -71,7 +71,7 @@ class Triangulation {
     return orientation(corners[0], corners[1], corners[2], corners[3]);
   }
 
-  /// Walks from the newest cell towards the place; where rounding leads in circles, looks at all.
+  /// Walks from the newest cell towards the place; if rounding leads in circles, tests all cells.
   [[nodiscard]] std::uint32_t find(const Vec3& place) const {
     std::uint32_t at = static_cast<std::uint32_t>(cells_.size()) - 1;
     for (std::size_t steps = 0; steps < cells_.size(); ++steps) {
@@ -123,7 +123,7 @@ class Triangulation {
         if (next == nobody || in_hole(next)) continue;
         if (side(cells_[hole_[n]], face, place) > 0) continue;
         hole_.push_back(next);
-        n = static_cast<std::size_t>(-1);  // look at all again
+        n = static_cast<std::size_t>(-1);  // test all again
         break;
       }
     }

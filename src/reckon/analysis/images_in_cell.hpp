@@ -11,7 +11,7 @@ namespace reckon {
 /// Grains of a periodic cell at one moment.
 struct GrainsOfCell {
   std::vector<Vec3> positions;  ///< of the images in the cell [m]
-  std::vector<Vec3> shifts;     ///< from there to where each grain's own way led it [m]
+  std::vector<Vec3> shifts;     ///< from there to the unwrapped position of each grain [m]
   Mat3 edges;                   ///< of the cell, as columns [m]
 };
 

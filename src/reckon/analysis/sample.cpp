@@ -39,7 +39,7 @@ struct Sums {
   }
 };
 
-/// Adds the contacts between grains that this rank tells of: those of its own first grains. Counts
+/// Adds the contacts between grains that this rank counts: those whose first grain it owns. Counts
 /// the contacts of each own grain, those with ghosts included. Returns the largest force [N].
 double add_pairs(const Simulation& simulation, Sums& sums, std::vector<std::int64_t>& degree) {
   const GrainContacts& contacts = simulation.grain_contacts();
@@ -64,7 +64,7 @@ double add_pairs(const Simulation& simulation, Sums& sums, std::vector<std::int6
   return largest;
 }
 
-/// Pairs that two ranks share are told by the owner of the first grain.
+/// A pair of two ranks is counted by the owner of its first grain.
 void add_normals(const Simulation& simulation, Sums& sums) {
   std::vector<GrainId> own_ids = simulation.grains().id;
   std::sort(own_ids.begin(), own_ids.end());

@@ -9,9 +9,9 @@
 
 namespace reckon {
 
-/// A sample between walls as a laboratory sees it. Stresses and strains count compression positive;
-/// tensors have the force's or first vector's component as row. All sums over contacts are exact
-/// before their one rounding, so nothing depends on threads or ranks.
+/// The quantities of a sample between walls that a laboratory measures. Stresses and strains count
+/// compression positive; tensors have the force's or first vector's component as row. All sums over
+/// contacts are exact before their one rounding, so nothing depends on threads or ranks.
 struct SampleMeasurement {
   // Of the space that the walls close off; zeros where they do not.
   bool enclosed{false};
@@ -58,7 +58,7 @@ struct SampleMeasurement {
 };
 
 /// Measures a sample. To be called after Simulation::measure() or contacts() at the same step,
-/// whose forces it looks at. Collective; the same on all ranks.
+/// whose forces it uses. Collective; the same on all ranks.
 [[nodiscard]] SampleMeasurement measure_sample(const Simulation& simulation);
 
 }  // namespace reckon

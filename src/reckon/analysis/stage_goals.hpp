@@ -10,15 +10,15 @@
 
 namespace reckon {
 
-/// What a goal asks for, at one step.
+/// The state of the conditions of a goal at one step.
 struct GoalState {
   /// What an instant can meet by accident: rest, stresses, overlaps. It must last.
   bool holds{true};
   bool passed{true};  ///< what a stage moves towards: strain and void ratio
 };
 
-/// Looks at the goal of the stage under way. The measurements are those of the current step.
-/// Collective; the same on all ranks.
+/// Tests the goal of the current stage. The measurements are those of the current step. Collective;
+/// the same on all ranks.
 [[nodiscard]] GoalState look_at(const StageGoal& goal, const Simulation& simulation,
                                 const Measurement& measurement, const SampleMeasurement& sample);
 

@@ -8,9 +8,9 @@
 
 namespace reckon {
 
-/// Walks through binary data, never past its end, and knows where it is, so that every complaint
-/// names file and byte offset. Numbers are put together byte by byte: the machine's own byte order
-/// plays no role. Does not own the data.
+/// Walks through binary data, never past its end, and keeps the position, so that every complaint
+/// names file and byte offset. Numbers are assembled byte by byte, independent of the byte order of
+/// the machine. Does not own the data.
 class ByteReader {
  public:
   enum class Order : std::uint8_t { little_endian, big_endian };

@@ -23,7 +23,7 @@ namespace {
 // What only rules out triangles is computed in single precision, with a margin above its rounding
 // on grids of some 10^3 vertices a row.
 constexpr float margin = 1e-2F;        // [spacings]
-constexpr double widest_cosine = 0.2;  // of cones; wider ones tell nothing
+constexpr double widest_cosine = 0.2;  // of cones; wider ones exclude nothing
 
 using Lanes [[gnu::vector_size(16)]] = float;
 

@@ -33,7 +33,7 @@ std::int64_t six_volumes(const Lattice& a, const Lattice& b, const Lattice& c, c
 struct Facet {
   std::array<Index, 3> corner{};
   std::array<Index, 3> neighbor{};  // across the side from corner s to corner s + 1
-  std::vector<Index> outside;       // points that see this facet, each kept by one facet only
+  std::vector<Index> outside;       // points outside this facet, each stored with one facet only
   bool alive{true};
 };
 
@@ -123,7 +123,7 @@ class Quickhull {
     const Index p = *std::max_element(candidates.begin(), candidates.end(), [&](Index a, Index b) {
       return height(facets_[seed], points_[a]) < height(facets_[seed], points_[b]);
     });
-    // The facets that p sees are connected; their outer border is the horizon.
+    // The facets with p on their outer side are connected; their border is the horizon.
     const auto first_new = static_cast<Index>(facets_.size());
     std::vector<Index> visible{seed};
     std::vector<Index> orphans;

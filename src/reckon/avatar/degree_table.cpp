@@ -15,7 +15,7 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-/// The cell that begins at `at`, which goes on to the separator behind it or past the end.
+/// The cell that begins at `at`, which ends at the next separator or at the end of the line.
 std::string next_cell(const TextReader& reader, std::string_view line, char separator,
                       std::size_t& at) {
   constexpr std::string_view blanks = " \t";

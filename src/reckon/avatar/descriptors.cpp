@@ -101,7 +101,7 @@ double inscribed_radius(const TriangleBvh& bvh, const LevelSetView& grid) {
   Vec3 best = grid.origin_body + grid.spacing * Vec3{static_cast<double>(i), static_cast<double>(j),
                                                      static_cast<double>(k)};
   double deepest = -bvh.signed_distance(best);
-  // Few points of the surface stand in the way of nearly all places, so those are asked first.
+  // A few points of the surface obstruct nearly all places, so they are tested first.
   std::vector<Vec3> in_the_way;
   const auto consider = [&](const Vec3& p) {
     const double reach = std::max(deepest, 0.0);

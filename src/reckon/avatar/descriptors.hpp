@@ -30,10 +30,9 @@ namespace reckon {
 /// sharper of the two principal radii of curvature is below the inscribed radius, the mean of that
 /// radius weighted by area, divided by the inscribed radius; 1 without corners. A place counts with
 /// corner_weight, so that a face whose radius is the inscribed one, as a cylinder's side may be, is
-/// no corner, and a small change of form never makes it one at once. Curvature comes
-/// from quadrics fitted to the samples within `reach` of each of them, so that scale is what
-/// "corner" means: radii below about half of it are not told apart.
-/// 0 above 0.95, 1 below 0.75, linear between.
+/// no corner, and a small change of form never makes it one at once. Curvature comes from quadrics
+/// fitted to the samples within `reach` of each of them, so that scale is what "corner" means:
+/// radii below about half of it are not distinguished. 0 above 0.95, 1 below 0.75, linear between.
 [[nodiscard]] double corner_weight(double radius_over_inscribed);
 [[nodiscard]] double wadell_roundness(const OrientedPoints& samples, double inscribed,
                                       double reach);

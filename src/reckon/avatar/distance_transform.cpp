@@ -96,7 +96,7 @@ class Transform {
     });
   }
 
-  /// Hands closest points on from neighbour to neighbour, nearest to the surface first.
+  /// Propagates closest points from neighbour to neighbour, nearest to the surface first.
   void spread() {
     const auto row = static_cast<std::uint32_t>(grid_.dims[0]);
     const std::uint32_t layer = row * static_cast<std::uint32_t>(grid_.dims[1]);

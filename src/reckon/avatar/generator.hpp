@@ -16,7 +16,7 @@ struct Spread {
   double deviation{0};
 };
 
-/// What a population of sand-like grains looks like, at the three scales of Barrett (1980): form,
+/// The statistics of a population of sand-like grains, at the three scales of Barrett (1980): form,
 /// roundness and roughness. The defaults are a sub-angular quartz sand.
 struct GrainStatistics {
   // Size: the diameter of the sphere of equal volume. Log-normal by number of grains, cut off at

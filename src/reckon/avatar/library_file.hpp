@@ -17,7 +17,7 @@ namespace reckon {
 
 /// A number that stands for all that the mechanics of a shape depends on (grid, nodes, mass, radius
 /// and Lipschitz constant; not name and descriptors). Shapes that act alike have equal digests on
-/// every machine, so a checkpoint can tell whether its shapes are still the same.
+/// every machine, so a checkpoint can detect that its shapes have changed.
 [[nodiscard]] std::uint64_t shape_digest(const Shape& shape);
 
 /// Throws Error with `place` in front when a shape's parts do not fit together or a number is out
@@ -70,7 +70,7 @@ void save_library(const std::filesystem::path& path, const ShapeLibrary& library
 /// `legacy_voxel` metres long. Every shape's digest and check_shape are verified.
 [[nodiscard]] ShapeLibrary load_library(const std::filesystem::path& path, double legacy_voxel = 1);
 
-/// What a library tells of a shape before its grid and nodes are read.
+/// What is known of a shape before its grid and nodes are read.
 struct ShapeSummary {
   std::string name;
   ShapeOutline outline;

@@ -10,17 +10,17 @@
 
 namespace reckon {
 
-/// Reads a surface from an STL, OBJ or PLY file, told apart by the file's extension. Coordinates
-/// are multiplied by `unit_in_metres`. Throws Error naming the file and the line or byte offset.
-/// The mesh is welded (below) but not checked to be closed: see require_closed_surface.
+/// Reads a surface from an STL, OBJ or PLY file, by the extension of the file. Coordinates are
+/// multiplied by `unit_in_metres`. Throws Error naming the file and the line or byte offset. The
+/// mesh is welded (below) but not checked to be closed: see require_closed_surface.
 [[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path, double unit_in_metres);
 
 // The same from a file's bytes, in the file's own unit; `name` is for messages. Whatever the bytes
 // are, the answer is a mesh with finite vertices and valid indices, or an Error: no number in the
 // input is trusted before it is checked against the input's size.
 
-/// Binary or ASCII, told apart by the content: many binary files begin with "solid" as well.
-/// Stored normals are ignored; the order of the vertices says which side is out.
+/// Binary or ASCII, detected from the content: many binary files begin with "solid" as well. Stored
+/// normals are ignored; the order of the vertices gives the outer side.
 [[nodiscard]] TriangleMesh parse_stl(std::string_view bytes, const std::string& name);
 
 /// Reads v and f lines, which a backslash at the end of a line continues; polygons become triangles

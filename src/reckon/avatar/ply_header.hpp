@@ -10,7 +10,7 @@
 
 #include "reckon/text/text_reader.hpp"
 
-/// What the header of a PLY file says about the data that follow it.
+/// The layout of the data of a PLY file, from its header.
 namespace reckon::ply {
 
 enum class Encoding : std::uint8_t { ascii, little_endian, big_endian };

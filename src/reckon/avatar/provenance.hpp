@@ -20,7 +20,7 @@ struct SourceFile {
 /// options still give the same library byte for byte.
 struct Provenance {
   std::string program;  ///< name, version and revision; the writer of a file fills it in
-  std::vector<std::string> command;  ///< its words, without those that only say where to write
+  std::vector<std::string> command;  ///< its words, without those that only give the output path
   std::vector<SourceFile> sources;
 };
 

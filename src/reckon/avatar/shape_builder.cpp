@@ -23,9 +23,9 @@
 namespace reckon {
 namespace {
 
-// Shares of samples tell a node's area to about 2 %, with half as many to 3 %.
+// Shares of samples give the area of a node within about 2 %, with half as many within 3 %.
 constexpr std::size_t area_samples_per_node = 256;
-constexpr std::size_t many_nodes = 2000;     // need not be told that well
+constexpr std::size_t many_nodes = 2000;     // need less accuracy
 constexpr double largest_lost_share = 0.05;  // of the nodes
 
 [[noreturn]] void refuse(const std::string& name, std::string problem, std::string reason,
@@ -117,7 +117,7 @@ void add_nodes(Shape& shape, const TriangleMesh& body_mesh, const TriangleBvh& b
   OrientedPoints nodes;
   for (std::size_t n = 0; n < spread.size(); ++n) {
     const auto point = project_to_surface(shape.level_set, spread.position[n], spread.normal[n]);
-    if (!point) continue;  // a part too thin for the grid: contact does not see it either
+    if (!point) continue;  // too thin for the grid: the contact search does not find it either
     nodes.position.push_back(*point);
     nodes.normal.push_back(spread.normal[n]);
   }

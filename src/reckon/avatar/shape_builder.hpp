@@ -30,7 +30,7 @@ struct ShapeResolution {
 ///   on the grid (grid_properties) gives the same mass up to the discretisation error: O(h^2) at
 ///   edges, far less on smooth grains. It is compared, and a grid that misses the volume by more
 ///   than `largest_grid_error` is refused as too coarse.
-/// - Nodes lie on the zero surface of the interpolated grid, the one that contact sees, which lies
+/// - Nodes lie on the zero surface of the interpolated grid, which the contact search uses. It lies
 ///   O(h^2) inside the polyhedron where that is curved. Areas are shares of the polyhedron's area.
 ///
 /// `mesh` must be closed and outward, in any frame. Throws Error, with the shape's name as the

@@ -34,7 +34,7 @@ using std::numbers::pi;
 
 constexpr double edges_per_voxel = 2;
 constexpr double edges_per_wavelength = 6;
-constexpr std::uint32_t first_look = 24;  // geodesic frequency that suffices to know a size
+constexpr std::uint32_t first_look = 24;  // geodesic frequency that suffices for a size
 
 double diameter_of(const TriangleMesh& mesh) {
   return portable::cbrt(6 * solid_properties(mesh).volume / pi);

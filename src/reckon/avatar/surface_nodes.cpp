@@ -117,7 +117,7 @@ class NearestPoint {
     return cell_index(coordinate(p, 0), coordinate(p, 1), coordinate(p, 2));
   }
 
-  /// Looks at shells of cells around the position's own until no closer point can follow.
+  /// Searches shells of cells around that of the position until no closer point is possible.
   template <class Accept>
   [[nodiscard]] Best search(const Vec3& position, Accept&& accept) const {
     const std::array<int, 3> center{coordinate(position, 0), coordinate(position, 1),

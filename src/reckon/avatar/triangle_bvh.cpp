@@ -259,7 +259,7 @@ void TriangleBvh::search(const Vec3& point, ClosestPoint& best) const {
       const Leaf& leaf = leaves_[n];
       ClosestPoint found =
           closest_point_on_triangle(point, leaf.corners[0], leaf.corners[1], leaf.corners[2]);
-      // Among triangles at equal distance the lowest wins, whatever the tree looks like.
+      // Among triangles at equal distance the lowest is taken, independent of the tree.
       if (found.squared_distance < best.squared_distance ||
           (found.squared_distance == best.squared_distance && leaf.triangle < best.triangle)) {
         found.triangle = leaf.triangle;

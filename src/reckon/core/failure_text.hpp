@@ -8,8 +8,8 @@
 
 namespace reckon {
 
-/// What an exception says to a user, also one that is not ours: a memory that is used up, a file
-/// system that refuses.
+/// The text of an exception for a user, also of one that is not ours: a memory that is used up, a
+/// file system that refuses.
 [[nodiscard]] ErrorText failure_text(const std::exception& failure);
 
 /// Whether the machine is the reason and not the input: no memory, a disk that takes no more.

@@ -46,7 +46,7 @@ auto persist(Call&& call) {
 }
 
 /// Makes the names in a folder last through a power failure. File systems that cannot do this for a
-/// folder say so by other errors, and the folder may not be open to reading.
+/// folder return other errors, and the folder may not be readable.
 void flush_folder(const std::filesystem::path& file) {
   const std::filesystem::path parent = file.parent_path();
   const std::filesystem::path folder = parent.empty() ? "." : parent;

@@ -12,9 +12,9 @@
 
 namespace reckon {
 
-/// A file that appears under its own name only when it is complete. Until then its content lives
-/// in a temporary file in the same folder, so that a crash, a full disk or a reader that comes too
-/// early never meets half a file under a good name.
+/// A file that appears under its own name only when it is complete. Until then its content is in a
+/// temporary file in the same folder. After a crash or a full disk, or for an early reader, the
+/// final name never refers to an incomplete file.
 class PendingFile {
  public:
   /// Creates nothing yet. Throws Error when the target's folder does not exist.
@@ -42,8 +42,8 @@ class PendingFile {
 /// nothing for other files.
 [[nodiscard]] std::optional<std::string_view> target_of_temporary(std::string_view name);
 
-/// An open file. Each call does all that it is asked for, or throws: MachineFailure when the disk
-/// refuses to write, Error when it refuses to read. It closes itself.
+/// An open file. Each call completes its work or throws: MachineFailure when the disk refuses to
+/// write, Error when it refuses to read. It closes itself.
 class OpenFile {
  public:
   /// `flags` are those of open(); a file that is made may be read and written by all, as umask
@@ -59,7 +59,7 @@ class OpenFile {
   void write(std::uint64_t offset, std::string_view bytes) const;
   /// Returns once all has reached the disk.
   void flush() const;
-  /// Says whether the system took it all, which the destructor cannot.
+  /// Throws if the system did not take all data, which the destructor cannot.
   void close();
 
   [[nodiscard]] int descriptor() const { return descriptor_; }

@@ -15,18 +15,18 @@
 
 namespace reckon {
 
-/// Sealed HDF5 files: what is written for good (shape libraries, checkpoints) and must be known to
-/// be whole when it is read.
+/// Sealed HDF5 files: files that are stored permanently (shape libraries, checkpoints) and must be
+/// verified when they are read.
 ///
 ///   byte 0    a seal of 512 bytes (HDF5's "user block"), plain text: what the file is, its
 ///   version,
 ///             its length and a hash of it all
 ///   byte 512  an ordinary HDF5 file; h5dump, h5py and others read it as it is
 ///
-/// The seal is checked before the HDF5 library sees the file, because that library does not survive
-/// every damaged file.
+/// The seal is checked before the HDF5 library opens the file, because some damaged files crash
+/// that library.
 
-/// What a sealed file says it is.
+/// The kind of a sealed file.
 struct Hdf5Kind {
   std::string name;          ///< one line of text, e.g. "shape library"
   std::uint32_t version{1};  ///< of the layout
@@ -82,7 +82,7 @@ class Hdf5Writer {
   std::int64_t file_{-1};  // HDF5's handle
 };
 
-/// Reads a sealed HDF5 file. Every failure, and every difference between what is asked for and what
+/// Reads a sealed HDF5 file. Every failure, and every difference between what is requested and what
 /// is there, throws Error with the file's name; nothing is converted.
 class Hdf5Reader {
  public:

@@ -23,7 +23,7 @@ class Hdf5Handle {
   Hdf5Handle& operator=(const Hdf5Handle&) = delete;
   Hdf5Handle& operator=(Hdf5Handle&&) = delete;
 
-  /// Says whether closing went well: what the library still held back may only now meet the disk.
+  /// Whether closing succeeded: the library may write its remaining data only now.
   [[nodiscard]] bool close() {
     const std::int64_t id = std::exchange(id_, -1);
     return id < 0 || close_(id) >= 0;
@@ -39,11 +39,11 @@ class Hdf5Handle {
 
 /// For programs, before anything else of HDF5: keeps the library from tidying up when the program
 /// exits, which crashes when a full disk has kept a file from being closed. We close files where
-/// they are used. Not for code in a process of somebody else's, who may count on it.
+/// they are used. Not for code in a process of another program, which may rely on it.
 void skip_hdf5_cleanup_at_exit();
 
-/// For the time of a call: the library, which serves one thread at a time, is this thread's alone,
-/// and keeps its errors to itself. (It prints them unless told otherwise.)
+/// For the time of a call: reserves the library, which is not thread-safe, for this thread, and
+/// stops it from printing its errors.
 class QuietHdf5 {
  public:
   QuietHdf5();

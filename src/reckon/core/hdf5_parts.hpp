@@ -37,13 +37,13 @@ struct Hdf5Rows {
 
 /// Opens a dataset whose values lie in its own file; the handle is not valid where there is none. A
 /// dataset may name other files that hold its values ("external storage", "virtual datasets"), and
-/// a link may lead into another file: a file from elsewhere could so have files read and shown that
-/// only its reader may see. Throws Error then.
+/// a link may lead into another file: a file from elsewhere could thus expose private files of the
+/// reader. Throws Error then.
 [[nodiscard]] Hdf5Handle hdf5_open_dataset(std::int64_t file, const std::string& name,
                                            const std::filesystem::path& path);
 
-/// The errno that the system gave in the last call that failed, as far as HDF5 tells; 0 otherwise.
-/// To be asked before the next call.
+/// The errno that the system gave in the last call that failed, as far as HDF5 reports it; 0
+/// otherwise. Call it before the next call of HDF5.
 [[nodiscard]] int hdf5_error_number();
 
 }  // namespace reckon

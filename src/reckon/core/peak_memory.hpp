@@ -6,7 +6,8 @@
 
 namespace reckon {
 
-/// The most memory that this process has held at once [bytes]; 0 where the system does not tell.
+/// The most memory that this process has held at once [bytes]; 0 where the system does not report
+/// it.
 [[nodiscard]] std::uint64_t peak_memory();
 
 }  // namespace reckon

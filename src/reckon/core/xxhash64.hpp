@@ -10,8 +10,8 @@
 
 namespace reckon {
 
-/// The 64-bit xxHash (XXH64, Collet), fed piece by piece. It finds damage, at memory speed; it is
-/// no defence against someone who means to deceive.
+/// The 64-bit xxHash (XXH64, Collet), fed piece by piece. It detects damage, at the speed of
+/// memory. It does not protect against deliberate changes.
 class XxHash64 {
  public:
   explicit XxHash64(std::uint64_t seed = 0);

@@ -43,7 +43,7 @@ GhostExchange::Sends sends_within_reach(std::span<const Region> regions, int own
   for (int rank = 0; rank < static_cast<int>(regions.size()); ++rank) {
     const Region& other = regions[static_cast<std::size_t>(rank)];
     if (rank == own) continue;
-    // Both sides ask in the same order, so that they agree to the last bit.
+    // Both ranks test in the same order, so their answers are equal to the last bit.
     const bool near =
         rank < own ? other.within(home, reach, period) : home.within(other, reach, period);
     if (!near) continue;

@@ -105,7 +105,7 @@ std::vector<Region> bisect(const Communicator& ranks, std::span<const Vec3> posi
                           &export_global, &export_local, &export_ranks, &export_parts),
       "Zoltan_LB_Partition");
   std::vector<Region> regions(static_cast<std::size_t>(parts));
-  constexpr double beyond = 1e30;  // Zoltan's way to say that a face lies at infinity
+  constexpr double beyond = 1e30;  // used by Zoltan for a face at infinity
   for (int part = 0; part < parts; ++part) {
     int dimensions = 0;
     Region& r = regions[static_cast<std::size_t>(part)];

@@ -20,7 +20,7 @@ enum class DecompositionKind {
   replicated  ///< every rank holds every grain and tests every pair (the original LS-DEM)
 };
 
-/// Who owns which grain, and who must see which. Answers never depend on it.
+/// The owner of each grain, and the ghosts of each rank. Results never depend on it.
 class Decomposition {
  public:
   virtual ~Decomposition() = default;
@@ -38,7 +38,7 @@ class Decomposition {
       std::vector<BorderGrain> owned) const = 0;
 };
 
-/// `grain_count` bounds the grains' ids; only `replicated` looks at it.
+/// `grain_count` bounds the grains' ids; only `replicated` uses it.
 [[nodiscard]] std::unique_ptr<Decomposition> make_decomposition(DecompositionKind kind,
                                                                 const Communicator& ranks,
                                                                 std::size_t grain_count);

@@ -13,8 +13,8 @@
 
 namespace reckon {
 
-/// What a rank must know, at every step, of a grain that another rank owns: 104 bytes. Shear
-/// springs are not among it: they are computed on both sides from the same bits.
+/// The data of a grain of another rank that is needed at every step: 104 bytes. Shear springs are
+/// not among it: they are computed on both sides from the same bits.
 struct GhostState {
   Vec3 position;
   Quaternion orientation;
@@ -22,7 +22,7 @@ struct GhostState {
   Vec3 angular_velocity_body;
 };
 
-/// A ghost when lists are made: what it is, its state, and where decompositions see it (in a
+/// A ghost when lists are made: its identity, its state, and its place for decompositions (in a
 /// periodic cell, PeriodicCell::place).
 struct BorderGrain {
   GrainId id;
@@ -31,7 +31,7 @@ struct BorderGrain {
   Vec3 place{};  ///< [m]
 };
 
-/// The grains of other ranks that this rank needs to see, kept up to date step by step.
+/// The grains of other ranks that this rank needs, updated at every step.
 class Ghosts {
  public:
   virtual ~Ghosts() = default;

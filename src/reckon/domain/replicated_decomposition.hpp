@@ -6,8 +6,8 @@
 
 namespace reckon {
 
-/// Every rank sees every grain: the original LS-DEM's scheme, kept as a plain oracle. Grains are
-/// shared out by id, and states are spread by one Allreduce over all of them.
+/// Every rank holds every grain: the scheme of the original LS-DEM, kept as a plain oracle. Grains
+/// are shared out by id, and states are spread by one Allreduce over all of them.
 class ReplicatedDecomposition final : public Decomposition {
  public:
   ReplicatedDecomposition(Communicator ranks, std::size_t grain_count)

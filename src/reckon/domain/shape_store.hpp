@@ -23,20 +23,20 @@ class ShapeStore {
 
   /// No shapes.
   ShapeStore();
-  /// All shapes are at hand already, in this process.
+  /// All shapes are already in this process.
   ShapeStore(std::shared_ptr<const ShapeLibrary> library);  // NOLINT(google-explicit-constructor)
   /// Collective. `outlines` are the same on all ranks; `read` is called on one rank per machine.
   ShapeStore(const Communicator& ranks, std::vector<ShapeOutline> outlines, Read read);
 
-  /// By ShapeId. The views stay where they are; those of shapes that nobody has required have no
-  /// grid and no nodes.
+  /// By ShapeId. The views stay where they are; shapes that were never required have no grid and no
+  /// nodes.
   [[nodiscard]] std::span<const ShapeView> views() const;
 
   /// Collective. Makes sure that the shapes with a true flag are whole on this rank. Throws what
   /// `read` throws, on all ranks of that machine.
   void require(const std::vector<bool>& needed);
 
-  /// What grids, nodes and clusters of the shapes at hand take on this machine [bytes].
+  /// Memory of grids, nodes and clusters of the shapes that are loaded on this machine [bytes].
   [[nodiscard]] std::uint64_t resident_bytes() const;
   [[nodiscard]] std::uint64_t resident_shapes() const;
   /// This rank's number among those of its machine, from 0.

@@ -10,7 +10,7 @@
 
 namespace reckon {
 
-/// One grain as the contact kernels see it at the current step: what a ghost needs too.
+/// The data of a grain that the contact kernels use at the current step. A ghost has the same.
 struct GrainFrame {
   GrainId id;
   const ShapeView* shape{nullptr};
@@ -21,7 +21,7 @@ struct GrainFrame {
   double mass{0};               ///< [kg]
 };
 
-/// Asks the memory for a frame that will be read soon.
+/// Prefetches a frame that will be read soon.
 inline void prefetch_frame(const GrainFrame& frame) {
   for (std::size_t byte = 0; byte < sizeof frame; byte += 64) {
     __builtin_prefetch(reinterpret_cast<const char*>(&frame) + byte);

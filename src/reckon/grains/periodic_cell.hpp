@@ -27,16 +27,15 @@ struct CellState {
 
 /// A cell of space that repeats itself along some of its edges.
 ///
-/// Grains are never put back into the cell: a grain's position is where its own way took it, and
-/// jumps nowhere. What repeats itself are the pairs. Two grains a and b meet through the one image
-/// of b that is nearest to a,
+/// Grains keep their unwrapped positions, which never jump. Periodicity is in the pairs: two grains
+/// a and b meet through the image of b that is nearest to a,
 ///
 ///   d = x_a - (x_b + H n)        n = round(H^-1 (x_a - x_b)), whole numbers
 ///
-/// where the columns of H are the edges; the image moves with v_b + dH/dt n. Everybody who knows
-/// both grains computes the same n and d from the same bits, a the grain of lower id, so no image
-/// needs to be stored, sent or kept, and nothing happens when a grain crosses a border. A cell at
-/// least twice as wide as two grains reach lets a pair meet through one image only.
+/// where the columns of H are the edges; the image moves with v_b + dH/dt n. Here a is the grain
+/// with the lower id. Every rank that has both grains computes the same n and d from the same bits,
+/// so no image is stored or sent, and nothing changes when a grain crosses a border. In a cell at
+/// least twice as wide as the reach of two grains, a pair meets through one image only.
 class PeriodicCell {
  public:
   /// `periodic` by axis; edges that are not periodic do not matter, but must have a length.

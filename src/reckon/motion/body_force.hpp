@@ -18,8 +18,8 @@ struct BodyForce {
   std::uint64_t seed{0};
   std::vector<Vec3> own;  ///< by grain id; empty: none [m/s^2]
 
-  /// All of it but gravity. Random parts come from a counter-based generator keyed by
-  /// (seed, grain, step), so they do not depend on where or in which order they are asked for.
+  /// All of it but gravity. Random parts come from a counter-based generator keyed by (seed, grain,
+  /// step), so they do not depend on the place or order of the calls.
   [[nodiscard]] Vec3 acceleration_besides_gravity(GrainId grain, std::uint64_t step) const;
 };
 

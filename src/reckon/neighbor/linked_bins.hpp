@@ -13,17 +13,17 @@ namespace reckon {
 
 /// Linked-list binning (paper, sections 2.2 and 4) in layers (a hierarchical grid, Ogarko & Luding
 /// 2012). Layer 0 cuts space into cubic bins that hold the reach of the largest grains, layer 1
-/// into bins half as wide, and so on. A grain lives in the finest layer whose bins are as wide as
-/// twice its radius plus the skin. Of a pair, the grain of the finer layer looks up its partner:
+/// into bins half as wide, and so on. A grain belongs to the finest layer whose bins are at least
+/// as wide as twice its radius plus the skin. The grain of the finer layer finds the pair:
 ///
 ///   layer 0  |         O          |                    |    a large grain's bin
-///   layer 1  |         |          |         |          |    (nobody)
-///   layer 2  |  o |    |  o  | o  |    |    | o   |    |    small grains look among their own
+///   layer 1  |         |          |         |          |    (empty)
+///   layer 2  |  o |    |  o  | o  |    |    | o   |    |    small grains search their own
 ///            `-- half of 26 neighbours ---'                 layer, then in 27 bins of each coarser
 ///
-/// Grains of a bin form a chain: `first` of the bin, then `next` of each grain. Bins live in a hash
-/// table as large as the number of grains, not in a box: there is no domain to leave, an empty
-/// space costs nothing, and memory does not grow with a grain that flies away.
+/// Grains of a bin form a chain: `first` of the bin, then `next` of each grain. Bins are stored in
+/// a hash table as large as the number of grains, not in a box: the domain has no bounds, empty
+/// space costs nothing, and memory does not grow when a grain flies away.
 class LinkedBins {
  public:
   /// `skin` widens the reach of every pair [m]; positions and radii are per grain.

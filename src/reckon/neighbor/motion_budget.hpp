@@ -9,24 +9,24 @@
 namespace reckon {
 
 /// How far each grain and wall may move before pairs must be listed anew. Two grains are listed
-/// when their spheres come within the sum of both budgets, so nobody can meet unlisted before
-/// someone used up its own:
+/// when their spheres come within the sum of both budgets, so no unlisted pair can touch before one
+/// of its grains has used its budget:
 ///
 ///   slow  |--o--|      |--o--|      half the skin each
-///   fast  |------------o------------|      as far as it goes while a list should live
+///   fast  |------------o------------|      its travel in the planned life of a list
 ///
-/// One fast grain so lengthens its own list of partners instead of ending everybody's. A budget
-/// depends on the velocity alone, which a ghost has too: all ranks agree on it.
+/// A fast grain thus lengthens only its own list of partners; the lists of other grains stay valid.
+/// A budget depends only on the velocity, which a ghost has too, so all ranks compute the same.
 struct MotionBudget {
   double least{0};    ///< half the skin [m]
   double most{0};     ///< [m]
-  double horizon{0};  ///< how long a list should live [s]
-  /// In a periodic cell, motion with the cell costs no budget but what moves two near grains
-  /// against each other: the cell's velocity gradient and its centre.
+  double horizon{0};  ///< planned life of a list [s]
+  /// In a periodic cell, motion with the cell uses no budget, except for the relative motion of two
+  /// near grains: the cell's velocity gradient and its centre.
   UpperMat3 gradient{};
   Vec3 center{};
 
-  /// Lists should live for 50 steps, unless that takes more than four skins. `skin` in m.
+  /// The planned life of a list is 50 steps, unless that needs more than four skins. `skin` in m.
   static MotionBudget with(double skin, double time_step) {
     constexpr double most_skins = 4;
     constexpr double steps = 50;

@@ -23,7 +23,7 @@ void add_if_near(std::vector<Pair>& pairs, std::span<const GrainId> ids,
 void add_if_images_near(std::vector<Pair>& pairs, std::span<const GrainId> ids,
                         std::span<const Vec3> positions, std::span<const double> radii, double skin,
                         const PeriodicCell& cell, std::uint32_t s, std::uint32_t t) {
-  if (ids[t] < ids[s]) std::swap(s, t);  // all see a pair in one direction
+  if (ids[t] < ids[s]) std::swap(s, t);  // all ranks use one direction of a pair
   const double reach = radii[s] + radii[t] + skin;
   if (!(squared_norm(cell.branch(positions[s], positions[t])) < reach * reach)) return;
   pairs.push_back({ids[s], ids[t], s, t});

@@ -17,7 +17,7 @@ namespace reckon {
 struct Pair {
   GrainId id_a;          ///< the lower id
   GrainId id_b;          ///< the higher id
-  std::uint32_t slot_a;  ///< where `id_a` lives in this process
+  std::uint32_t slot_a;  ///< place of `id_a` in this process
   std::uint32_t slot_b;
 };
 

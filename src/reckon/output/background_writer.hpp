@@ -11,15 +11,15 @@
 
 namespace reckon {
 
-/// Does jobs one after another on a thread of its own, in the order in which they came, while the
-/// caller goes on. One job may wait while another is done; who hands in a third waits for room, so
-/// slow disks slow a run down but never fill the memory.
+/// Executes jobs one after another on a separate thread, in the order of submission, while the
+/// caller continues. One job may wait while another is executed. The caller of a third job waits,
+/// so slow disks slow a run down but never fill the memory.
 class BackgroundWriter {
  public:
   using Job = std::function<void()>;
 
   BackgroundWriter();
-  /// Finishes what was handed in; what that throws is lost unless finish() came first.
+  /// Finishes all submitted jobs. Their exceptions are lost unless finish() was called before.
   ~BackgroundWriter();
   BackgroundWriter(const BackgroundWriter&) = delete;
   BackgroundWriter& operator=(const BackgroundWriter&) = delete;

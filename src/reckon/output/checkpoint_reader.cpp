@@ -82,7 +82,7 @@ std::uint64_t rows_of(const Hdf5Reader& file, const std::string& column) {
   return rows;
 }
 
-/// The rows of a table; `column` tells how many there are.
+/// The rows of a table; `column` gives their number.
 template <class Row, class Walk>
 std::vector<Row> read_rows(const Hdf5Reader& file, const std::string& table, const char* column,
                            Walk&& walk) {

@@ -49,7 +49,7 @@ void walk_bond(Columns& columns, Pair& pair, Cement& bond) {
   columns.number("radius", "m", bond.radius);
 }
 
-/// What springs of grains, walls and the membrane remember.
+/// The history of the springs of grains, walls and the membrane.
 template <class Columns, class Spring>
 void walk_memory(Columns& columns, Spring& spring) {
   columns.vector("shear_force", "N", spring.shear_force);

@@ -33,13 +33,13 @@ struct FieldsAtStep {
   std::uint64_t step{0};
   double time{0};                       ///< [s]
   std::vector<GrainState> grains;       ///< sorted by id
-  std::vector<std::uint32_t> ranks;     ///< that have each grain; empty: not asked for
+  std::vector<std::uint32_t> ranks;     ///< owners of the grains; empty: not requested
   bool has_contacts{true};              ///< whether contacts are known
   std::vector<ContactRecord> contacts;  ///< see Simulation::contacts
   std::vector<Vec3> wall_displacement;  ///< by wall, since time zero [m]
   std::optional<MembraneAtStep> membrane;
   std::optional<PeriodicCell> cell;  ///< that the grains were put into
-  std::vector<Vec3> cell_shift;      ///< by row, from there to where the grain's own way led it [m]
+  std::vector<Vec3> cell_shift;      ///< by row, from there to the unwrapped position [m]
 };
 
 /// Takes the image of each grain that is in the cell, as it moves there.

@@ -13,15 +13,15 @@
 
 namespace reckon {
 
-/// A grain at one step, with what the fields of all grains say of it.
+/// A grain at one step, with the data that its fields are computed from.
 struct GrainAtStep {
   const GrainState& state;
   const ShapeOutline& shape;
   double density{0};          ///< [kg/m^3]
-  std::uint32_t partners{0};  ///< that touch it, walls included
+  std::uint32_t partners{0};  ///< in contact with it, walls included
   Vec3 contact_force;         ///< sum over them [N]
-  std::uint32_t rank{0};      ///< that has the grain
-  Vec3 cell_shift;            ///< from its image in the cell to where it has come [m]
+  std::uint32_t rank{0};      ///< that owns the grain
+  Vec3 cell_shift;            ///< from its image in the cell to its unwrapped position [m]
 };
 
 /// How the numbers of a field are stored: real numbers as Float64 at points and as Float32 on

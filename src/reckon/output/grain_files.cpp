@@ -10,7 +10,7 @@
 #include "reckon/output/fields.hpp"
 #include "reckon/output/grain_fields.hpp"
 
-/// What fields say of grains: a point for each, or its surface.
+/// The files of the fields of grains: a point per grain, or its surface.
 namespace reckon {
 
 void put_into(const PeriodicCell& cell, FieldsAtStep& fields) {

@@ -29,7 +29,7 @@ namespace reckon {
 /// leaves whole rows.
 class HistoryFile {
  public:
-  /// Starts a new file, or goes on with the one there: then rows for which `keep(step)` is false
+  /// Starts a new file, or continues the existing one: then rows for which `keep(step)` is false
   /// are dropped first. Throws Error when the file cannot be written, or has another header.
   HistoryFile(std::filesystem::path path, std::vector<HistoryQuantity> quantities,
               const std::function<bool(std::uint64_t)>& keep = {});

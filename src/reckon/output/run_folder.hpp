@@ -10,7 +10,7 @@
 
 namespace reckon {
 
-/// The names in a run's folder. docs/reference/run-folder.md says what each file holds.
+/// The names in the folder of a run. docs/reference/run-folder.md has the content of each file.
 ///
 ///   scene.toml            the scene as given, to the letter
 ///   scene_resolved.toml   the same with every default and the time step filled in
@@ -47,9 +47,8 @@ class RunFolder {
   [[nodiscard]] std::vector<std::uint64_t> field_steps(std::string_view kind) const;
 
   /// The same file, to be read. Throws Error when it is there and is no plain file: a run writes
-  /// nothing else, one would wait for ever at a pipe, and a link that leads out of the folder may
-  /// show what is nobody's business. (`fields` and `checkpoints` themselves may be links to another
-  /// disk.)
+  /// nothing else, reading a pipe would block forever, and a link that leads out of the folder may
+  /// expose private files. (`fields` and `checkpoints` themselves may be links to another disk.)
   [[nodiscard]] std::filesystem::path own(std::filesystem::path file) const;
 
   /// Whether it holds anything at all, empty folders aside.

@@ -80,7 +80,7 @@ class Communicator {
                                             const std::vector<Bytes>& outgoing) const;
 
   /// Prepares messages to be sent again and again. Two ranks must name each other in the same
-  /// order; `tag` tells exchanges apart.
+  /// order; `tag` identifies the exchange.
   [[nodiscard]] RepeatedExchange repeated_exchange(std::span<const Channel> send,
                                                    std::span<const Channel> receive, int tag) const;
 

@@ -6,9 +6,9 @@
 
 namespace reckon {
 
-/// The ranks of an MPI communicator that somebody else made, such as mpi4py, by its Fortran handle,
-/// which is a number in every MPI. It stays the other's, and must outlive what is returned. Throws
-/// Error in a build without MPI.
+/// The ranks of an MPI communicator that another library made, such as mpi4py, by its Fortran
+/// handle, which is a number in every MPI. It stays the other's, and must outlive what is returned.
+/// Throws Error in a build without MPI.
 [[nodiscard]] Communicator communicator_of(int fortran_handle);
 
 }  // namespace reckon

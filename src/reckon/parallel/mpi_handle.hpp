@@ -11,7 +11,7 @@
 
 namespace reckon {
 
-/// No impl: one rank, alone, and no MPI call is made, so a plain serial run needs no MPI start.
+/// No impl: a single rank. No MPI call is made, so a serial run does not start MPI.
 struct Communicator::Impl {
   MPI_Comm handle;
   int rank;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array text_parts{&ErrorText::place, &ErrorText::problem, &ErrorText::reason,
                                 &ErrorText::fix};
 
-/// A byte that says whether the machine failed, then the four parts, each with a NUL behind it.
+/// A byte for whether the machine failed, then the four parts, each with a NUL behind it.
 Bytes to_bytes(const ErrorText& text, bool machine_failed) {
   Bytes bytes{std::byte{machine_failed}};
   for (const auto part : text_parts) {

@@ -10,7 +10,7 @@
 
 namespace reckon {
 
-/// A block of memory that all ranks of a machine see, zero at first. Its root writes, all read
+/// A block of memory shared by all ranks of a machine, zero at first. Its root writes, all read
 /// after a barrier. Alone on its machine, or where the system grants no shared memory, a rank holds
 /// a block of its own: then shared() is false and every rank must write its own.
 class SharedMemory {

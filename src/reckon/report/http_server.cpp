@@ -147,7 +147,7 @@ struct HttpServer::Impl {
     }
   }
 
-  /// The one that has kept us waiting the longest, before all those that have not yet asked.
+  /// The connection that has been idle longest; connections without a complete request go first.
   void drop_oldest() {
     const auto oldest = std::min_element(
         connections.begin(), connections.end(), [](const Connection& a, const Connection& b) {

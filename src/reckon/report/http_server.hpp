@@ -8,7 +8,7 @@
 
 namespace reckon {
 
-/// What a browser asks for. Other methods than GET and HEAD are refused before.
+/// The request of a browser. Methods other than GET and HEAD are refused earlier.
 struct HttpRequest {
   std::string path;  ///< as it stands in the request, query included
   std::string host;  ///< the header of that name, without a port
@@ -20,9 +20,9 @@ struct HttpAnswer {
   std::string body;
 };
 
-/// A small HTTP/1.1 server (RFC 9112) on 127.0.0.1, for browsers on this machine. One thread serves
-/// all connections in turn, so none can hold up another by being slow. What a client can make it
-/// keep is bounded: so many connections, so many bytes of a request, so many seconds for one.
+/// A small HTTP/1.1 server (RFC 9112) on 127.0.0.1, for browsers on this machine. One thread
+/// answers all connections in turn without blocking, so a slow client does not delay others. The
+/// number of connections, the bytes of a request and the time of each are limited.
 class HttpServer {
  public:
   static constexpr std::size_t most_connections = 256;

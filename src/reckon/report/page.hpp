@@ -16,15 +16,15 @@ namespace reckon {
 [[nodiscard]] std::string_view viewer_page();
 
 /// The page with the data of these runs in it: one file that needs nothing else. `progressed` is
-/// told of how many saved times it has so far, of how many. Saved times that cannot be read are
-/// left out; `note` is told why. Throws Error when a folder holds no run, or where this program was
-/// built without the page.
+/// called with the number of saved times so far and in total. Saved times that cannot be read are
+/// left out; `note` is called with the reason. Throws Error when a folder holds no run, or where
+/// this program was built without the page.
 [[nodiscard]] std::string report_page(
     std::span<const RunFolder> runs, const PageLimits& limits,
     const std::function<void(std::size_t done, std::size_t total)>& progressed = {},
     const std::function<void(const std::string&)>& note = {});
 
-/// The page that asks the server it came from for its data (report/watch_server.hpp).
+/// The page that requests its data from its server (report/watch_server.hpp).
 [[nodiscard]] std::string live_page();
 
 }  // namespace reckon

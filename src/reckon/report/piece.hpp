@@ -25,7 +25,7 @@ class Piece {
  public:
   Piece() { json_.begin_object(); }
 
-  /// What the text says besides; whatever is begun must be ended before finish().
+  /// Further content of the text; every begin must be ended before finish().
   [[nodiscard]] JsonWriter& json() { return json_; }
 
   template <VtkNumber Number>

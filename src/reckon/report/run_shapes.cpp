@@ -62,7 +62,7 @@ GrainsByShape grains_by_shape(const RunFolder& folder) {
       for (const SavedGrain& grain : read_fields(folder, step).grains) ++counts[grain.shape.get()];
       break;
     } catch (const Error&) {
-      counts.clear();  // damaged: whoever shows this step says so; the next will do here
+      counts.clear();  // damaged: reported where this step is shown; the next step suffices here
     }
   }
   return counts;
@@ -75,7 +75,7 @@ RunShapes read_run_shapes(const RunFolder& folder, const SceneConfig& scene,
   try {
     const ShapeCatalog catalog = catalog_of(folder, scene);
     const bool fits = grains.empty() || grains.rbegin()->first < catalog.size();
-    if (!fits && folder.checkpoint_steps().empty()) {  // a checkpoint would have told
+    if (!fits && folder.checkpoint_steps().empty()) {  // a checkpoint would have detected it
       return {.grains = grains,
               .missing = "a shape library named in scene_resolved.toml has changed"};
     }

@@ -38,7 +38,8 @@ struct RunShapes {
 
 /// The shapes of a run from the libraries that `scene` names. `grains` is the number of grains of
 /// each shape: the more grains and shapes, the fewer triangles each. Where a checkpoint shows that
-/// the libraries are not those that ran, or one is gone, there are none, and it says why.
+/// the libraries are not those that ran, or one is missing, there are none, and it states the
+/// reason.
 [[nodiscard]] RunShapes read_run_shapes(const RunFolder& folder, const SceneConfig& scene,
                                         const GrainsByShape& grains);
 

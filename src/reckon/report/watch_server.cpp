@@ -40,7 +40,7 @@ bool names_this_machine(const std::string& host) {
   return host == "127.0.0.1" || host == "localhost";
 }
 
-/// 128 bits that nobody can guess, from the system.
+/// 128 random bits from the system.
 std::string make_token() {
   std::array<unsigned char, 16> bytes{};
   if (::getentropy(bytes.data(), bytes.size()) != 0) {

@@ -9,7 +9,7 @@
 
 namespace reckon {
 
-/// Shows one run in browsers on this machine while it goes on. Answers GET only, on 127.0.0.1 only,
+/// Shows one run in browsers on this machine while it runs. Answers GET only, on 127.0.0.1 only,
 /// and only
 ///
 ///   /TOKEN/                       the page
@@ -17,10 +17,10 @@ namespace reckon {
 ///   /TOKEN/piece/0/head           RunPieces::head()
 ///   /TOKEN/piece/0/frame/STEP     RunPieces::frame(STEP), where the run has saved that step
 ///
-/// TOKEN is made anew for each server: other users of the machine can reach the port, but only who
-/// has the address can read the run.
-/// No part of a request becomes part of a path, so nothing but the run can be read. Requests that
-/// name another host (a foreign page's attempt to reach it, by DNS rebinding) are refused.
+/// TOKEN is new for each server: other users of the machine can reach the port, but only a client
+/// with the address can read the run. No part of a request becomes part of a path, so only the run
+/// can be read. Requests that name another host (a foreign page's attempt to reach it, by DNS
+/// rebinding) are refused.
 class WatchServer {
  public:
   /// Takes the port, any free one for 0. Throws Error when it is taken.

@@ -53,7 +53,7 @@ std::uint64_t start_of_last_stage(const RunFolder& folder) {
                .fix = "Put a good copy back, or give --from."}};
 }
 
-/// A step's fields; nothing where they cannot be read, which `done` then says.
+/// The fields of a step; nothing where they cannot be read, which is then recorded in `done`.
 std::optional<SavedFields> readable_fields(const RunFolder& folder, std::uint64_t step,
                                            RunAnalysis& done) {
   try {

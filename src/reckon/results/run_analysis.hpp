@@ -36,11 +36,11 @@ struct RunAnalysis {
   std::vector<std::string> left_out;         ///< saved steps that cannot be read, with the reason
 };
 
-/// Looks at the saved fields of a run. Writes, per saved step after `from`, the local strain around
-/// each grain and how far it turned, for ParaView, and for every saved step from there on the
+/// Analyses the saved fields of a run. Writes, per saved step after `from`, the local strain around
+/// each grain and its rotation, for ParaView, and for every saved step from there on the
 /// distribution of the forces between grains. Steps whose files cannot be read are left out, the
-/// first of the last stage too. Throws Error where the run has not saved two steps,
-/// not that of `from`, or other grains at one than at the other. `progressed` is told of the steps.
+/// first of the last stage too. Throws Error where the run has not saved two steps, not that of
+/// `from`, or other grains at one than at the other. `progressed` is called with the steps done.
 RunAnalysis analyse_run(
     const RunFolder& folder, const AnalysisOptions& options,
     const std::function<void(std::size_t done, std::size_t total)>& progressed = {});

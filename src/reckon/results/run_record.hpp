@@ -30,7 +30,7 @@ class RunLog {
   int descriptor_{-1};
 };
 
-/// What run.json says: which program ran what, where, and how it ended.
+/// The content of run.json: the program, the scene, the machine, and how the run ended.
 struct RunRecord {
   std::string status;                 ///< running, complete, at rest, interrupted, failed
   std::string message;                ///< of a failure

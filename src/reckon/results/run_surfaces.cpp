@@ -25,7 +25,7 @@ ShapeCatalog shapes_of(const Checkpoint& checkpoint, const std::string& place) {
   const SceneReading reading = read_scene_text(checkpoint.scene, "/");
   ShapeCatalog catalog;
   for (const GrainsConfig& set : reading.config.grains) {
-    if (!set.library.empty()) catalog.add(set.library, set.voxel);  // else it is gone; told below
+    if (!set.library.empty()) catalog.add(set.library, set.voxel);  // missing ones: see below
   }
   std::vector<std::uint64_t> digests;
   for (std::size_t s = 0; s < catalog.size(); ++s) {

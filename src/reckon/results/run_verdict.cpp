@@ -22,7 +22,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// A history with what the checks ask of it.
+/// A history with the quantities that the checks need.
 class Evidence {
  public:
   explicit Evidence(const RunEvidence& evidence)
@@ -127,7 +127,7 @@ void check_rates(const Evidence& evidence, RunVerdict& verdict) {
   }
 }
 
-/// What a row says of rest; runs of earlier versions did not write all of it.
+/// The measures of rest in a row; runs of earlier versions did not write all of them.
 Measurement rest_of(const Evidence& evidence, std::size_t row) {
   Measurement m;
   m.unbalanced_ratio = evidence.at(row, "unbalanced_ratio");

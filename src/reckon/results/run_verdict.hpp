@@ -25,25 +25,25 @@ struct VerdictReason {
 /// `checks` of run_verdict.cpp.
 struct RunVerdict {
   std::vector<VerdictReason> reasons;
-  std::vector<std::string> notes;  ///< what a reader must know besides
+  std::vector<std::string> notes;  ///< further remarks for the reader
 
   [[nodiscard]] bool valid() const { return reasons.empty(); }
   void add(std::string code, std::string text);
 };
 
-/// What a run says of itself, in its history and its record.
+/// The history and the record of a run.
 struct RunEvidence {
   const SceneConfig& scene;
   const HistoryTable& history;
-  /// As in run.json; empty where there is none. What a run under way has not reached yet is not
-  /// held against it.
+  /// As in run.json; empty where there is none. A run in progress is not judged for what it has not
+  /// reached yet.
   std::string status{};
   std::string message{};  ///< of a failure
 };
 
-/// Looks for negative void ratios, deep overlaps, grains that are outside or have left a sample,
-/// rates that are not quasi-static, a rest that was asked for and not reached, and a failure.
-/// Columns that the history lacks, as in runs of earlier versions, give no reason.
+/// Tests for negative void ratios, deep overlaps, grains that are outside or have left a sample,
+/// rates that are not quasi-static, a required rest that was not reached, and a failure. Columns
+/// that the history lacks, as in runs of earlier versions, give no reason.
 [[nodiscard]] RunVerdict verdict_on(const RunEvidence& evidence);
 /// The same from the files of a run.
 [[nodiscard]] RunVerdict verdict_of(const RunFolder& folder);

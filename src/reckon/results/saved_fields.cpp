@@ -181,7 +181,7 @@ SceneConfig scene_of_run(const RunFolder& folder) {
   const std::filesystem::path file = folder.own(folder.resolved());
   SceneReading reading = read_scene_text(read_file(file), folder.root());
   for (const SceneFault& fault : reading.faults) {
-    if (fault.is_of_other_file) continue;  // shapes that have gone since are told of later
+    if (fault.is_of_other_file) continue;  // missing shapes are reported later
     throw Error{{.place = file.string(),
                  .problem = "this is not a scene that a run has written",
                  .reason = describe(fault, file.filename().string()),

@@ -27,7 +27,7 @@ struct SavedGrain {
   Vec3 velocity;                ///< half a step before [m/s]
   Vec3 angular_velocity;        ///< world frame, half a step before [rad/s]
   std::uint32_t touching{0};    ///< partners, walls included
-  Vec3 cell_shift;              ///< from there to where its own way led it; see PeriodicCell [m]
+  Vec3 cell_shift;              ///< from there to its unwrapped position; see PeriodicCell [m]
 };
 
 /// A field of the table (output/grain_fields.hpp) that the report page shows, as it was saved.

@@ -11,8 +11,8 @@
 
 namespace reckon {
 
-/// The latest checkpoint of a folder that can be read. Damaged ones on the way are renamed to
-/// end in ".damaged", and `note` says so. Nothing when there is none.
+/// The latest checkpoint of a folder that can be read. Damaged ones on the way are renamed to end
+/// in ".damaged", and `note` reports it. Nothing when there is none.
 [[nodiscard]] std::optional<Checkpoint> latest_checkpoint(
     const RunFolder& folder, const std::function<void(const std::string&)>& note);
 

@@ -40,7 +40,7 @@ double seconds_since(Clock::time_point start) {
 constexpr std::uint64_t rest_interval_without_history = 100;  // steps
 constexpr std::uint64_t vote_interval = 16;      // steps; a vote costs all ranks a wait
 constexpr double log_interval = 60;              // [s]
-constexpr std::uint64_t membrane_interval = 50;  // steps between looks for grains outside
+constexpr std::uint64_t membrane_interval = 50;  // steps between tests for grains outside
 
 /// Which rank has each grain, by id, from the ids that this rank has. Whole on the root.
 /// Collective.
@@ -143,8 +143,8 @@ class Session {
     progress_.wall_seconds = seconds_since(start_);
   }
 
-  /// What clocks and signals ask for: not the same on all ranks until they have voted. It changes
-  /// when files are written, never what they hold.
+  /// Requests of clocks and signals. They differ between ranks before the vote, and change when
+  /// files are written, never their content.
   struct Votes {
     bool stop{false};
     bool checkpoint{false};
@@ -171,8 +171,8 @@ class Session {
     return options_.steps ? std::min(step, *options_.steps) : step;
   }
 
-  /// What the root alone knows, on all ranks: the period 2 pi sqrt(m / k) of the grain that limits
-  /// the time step [steps], and since when a goal is met. Collective.
+  /// Data that only the root has, sent to all ranks: the period 2 pi sqrt(m / k) of the grain that
+  /// limits the time step [steps], and since when a goal is met. Collective.
   struct Persistence {
     double period{0};
     std::optional<std::uint64_t> met_since;
@@ -193,14 +193,14 @@ class Session {
     const auto since = message.take_all<std::uint64_t>();
     return {period, since.empty() ? std::nullopt : std::optional{since.front()}};
   }
-  /// Whether a condition has held for so many periods, and at two looks at least.
+  /// Whether a condition has held for so many periods, and at two tests at least.
   bool lasts(bool holds, double periods) {
     constexpr double most = 1e9;
     const double span = std::min(std::ceil(periods * persistence_.period), most);
     return goal_.look(progress_.step, holds, span >= 1 ? static_cast<std::uint64_t>(span) : 1);
   }
 
-  /// Goals are looked at only at fixed steps, so that a resumed run ends a stage where an
+  /// Goals are tested only at fixed steps, so that a resumed run ends a stage where an
   /// uninterrupted one does.
   bool stage_is_over() {
     if (!has_stages()) return false;
@@ -365,7 +365,7 @@ class Session {
                                                     : "complete";
     RunVerdict verdict;
     on_root(ranks_, [&] { verdict = files_->judge(config_, status); });
-    // A session without a step leaves what is told of the one that took the last.
+    // A session without a step keeps the results of the previous session.
     if (end != RunEnd::nothing_to_do ||
         ranks_.any(files_ != nullptr && !files_->record_says_ended())) {
       save_record(status);

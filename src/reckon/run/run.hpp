@@ -41,7 +41,7 @@ struct RunProgress {
 
 /// What the caller does meanwhile. All may be empty.
 struct RunHooks {
-  std::function<bool()> stop_requested;                ///< asked after every step
+  std::function<bool()> stop_requested;                ///< called after every step
   std::function<void(const RunProgress&)> progressed;  ///< called after every step
   std::function<void(const std::string&)> note;        ///< events in one line each
 };

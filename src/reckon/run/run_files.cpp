@@ -86,7 +86,7 @@ void RunFiles::write_checkpoint(SimulationState state,
                                 std::optional<std::uint64_t> goal_met_since) {
   in_background([this, state = std::move(state), goal_met_since]() mutable {
     const std::uint64_t step = state.step;
-    // A run that goes on from here counts on the rows before.
+    // A run resumed from here needs the rows before.
     outputs_->sync_history();
     checkpoint_.state = std::move(state);
     checkpoint_.goal_met_since = goal_met_since;
@@ -138,7 +138,7 @@ ErrorText RunFiles::fail(ErrorText text, const RunProgress& progress) {
   try {
     writer_.finish();
   } catch (const std::exception&) {
-    // What is told is the failure that came first.
+    // The first failure is reported.
   }
   if (!text.fix.empty()) text.fix += ' ';
   text.fix += latest_ ? fmt::format("The last checkpoint is {} (step {}).",
@@ -152,7 +152,7 @@ ErrorText RunFiles::fail(ErrorText text, const RunProgress& progress) {
   try {
     write_run_record(folder_.json(), record_);
   } catch (const std::exception&) {
-    // A full disk may be the very reason for the failure, which is what is told.
+    // The failure that is reported may itself be a full disk.
     overwrite_run_record(folder_.json(), record_);
   }
   return text;

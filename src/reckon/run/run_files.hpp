@@ -21,7 +21,7 @@
 
 namespace reckon {
 
-/// All that a session writes into its folder. Lives on the root alone.
+/// All that a session writes into its folder. Exists only on the root.
 class RunFiles {
  public:
   /// Takes hold of the folder and makes it ready. Throws Error as ready_folder does.
@@ -37,21 +37,19 @@ class RunFiles {
   }
 
   void note(const std::string& text);       ///< in the log and to the caller
-  void log(const std::string& text) const;  ///< in the log alone
+  void log(const std::string& text) const;  ///< only in the log
   void begin(HistoryRow at_start);          ///< the first row of a fresh run
   /// Fills in the energy at the start.
   void append_history(HistoryRow row);
-  /// Fields and checkpoints are written while the caller goes on; what goes wrong then is thrown by
-  /// a later call.
+  /// Fields and checkpoints are written in the background; a later call throws their errors.
   void write_fields(FieldsAtStep fields);
-  /// A checkpoint that the scene did not ask for gives way to the next one.
+  /// A checkpoint that is not due by the scene is replaced by the next one.
   void write_checkpoint(SimulationState state, std::optional<std::uint64_t> goal_met_since);
   /// Waits until all of it is written.
   void finish_writing();
   void write_record(const std::string& status, const RunProgress& progress,
                     std::span<const RankPerformance> performance);
-  /// Looks through the history of a session that ends with this status; the verdict goes into the
-  /// records to come.
+  /// Evaluates the history of a session that ends with this status; later records hold the verdict.
   [[nodiscard]] RunVerdict judge(const SceneConfig& scene, const std::string& status);
   /// Puts the latest checkpoint into the advice of an error, and the failure into the record.
   [[nodiscard]] ErrorText fail(ErrorText text, const RunProgress& progress);
@@ -59,7 +57,7 @@ class RunFiles {
   // As of the last finish_writing().
   [[nodiscard]] bool history_has(std::uint64_t step) const { return outputs_->history_has(step); }
   [[nodiscard]] bool fields_have(std::uint64_t step) const { return outputs_->fields_have(step); }
-  /// Whether run.json says that the run has ended.
+  /// Whether the run has ended according to run.json.
   [[nodiscard]] bool record_says_ended() const;
   [[nodiscard]] std::filesystem::path checkpoint_file() const;
   [[nodiscard]] HistoryTable history() const { return read_history(folder_.history()); }

@@ -129,7 +129,7 @@ void estimate_output(const LoadedScene& scene, std::uint64_t row_bytes, RunPlan&
       plan.history_rows * row_bytes + plan.frames * frame + plan.checkpoints * checkpoint;
 }
 
-/// Makes steps in memory to know how long they take.
+/// Makes steps in memory to measure their time.
 void time_steps(PreparedScene& prepared, double timing_seconds, bool with_sample, RunPlan& plan,
                 std::uint64_t& row_bytes) {
   plan.threads = thread_count();

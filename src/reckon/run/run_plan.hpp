@@ -31,7 +31,7 @@ struct RunPlan {
   std::optional<Vec3> cell_size;    ///< of a periodic cell [m]
   std::string cell_axes;            ///< along which it is periodic, e.g. "xyz"
   double cell_solid_fraction{0};    ///< volume of grains over that of the cell
-  double membrane_areal_mass{0};    ///< that the time step asks for [kg/m^2]
+  double membrane_areal_mass{0};    ///< required by the time step [kg/m^2]
 
   double bin_edge{0};  ///< [m]
   std::uint64_t occupied_bins{0};
@@ -56,7 +56,7 @@ struct RunPlan {
   std::uint64_t output_bytes{0};  ///< estimate of the run folder
 
   int threads{1};
-  std::uint64_t timed_steps{0};       ///< how many steps were made in memory to know the speed
+  std::uint64_t timed_steps{0};       ///< number of steps made in memory to measure the speed
   double seconds_per_step{0};         ///< wall clock
   double output_seconds{0};           ///< estimate for the whole run
   double duration{0};                 ///< estimate for the whole run [s]

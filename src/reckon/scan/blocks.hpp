@@ -27,7 +27,7 @@ struct Block {
 struct Workspace {
   std::filesystem::path folder;  ///< of scratch files
   std::uint64_t memory{0};       ///< for volumes [bytes]; 0: half of the machine's
-  std::int32_t overlap{0};       ///< of blocks where grains are told apart [voxels]; 0: see below
+  std::int32_t overlap{0};       ///< of blocks where grains are split [voxels]; 0: see below
 
   /// `memory` or its default.
   [[nodiscard]] std::uint64_t memory_limit() const;

@@ -43,7 +43,7 @@ struct Doubt {
                                                      const GrainChoice& choice,
                                                      const GrayLevels& levels);
 
-/// What a scan's own figures say against it: noise and blur.
+/// Doubts from the figures of the scan itself: noise and blur.
 [[nodiscard]] std::vector<std::string> check_scan(const StoredScan& scan, const MaskOnDisk& mask,
                                                   double spread);
 

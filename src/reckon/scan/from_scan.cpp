@@ -135,7 +135,7 @@ class Segmenter {
     return folder_ / fmt::format("stage-{}.h5", name_of(stage));
   }
 
-  /// Labels as they were given; their gray volume, or else the mask itself, tells the surfaces.
+  /// Labels as they were given; their gray volume, or else the mask itself, gives the surfaces.
   Segmentation run_labelled() {
     begin(ScanStage::read);
     const Workspace& work = scan_.work;

@@ -51,14 +51,14 @@ struct Segmentation {
   std::vector<LabelledGrain> grains;
   GrainChoice choice;
   std::vector<ScanStage> resumed;    ///< stages whose results were found, not computed
-  std::vector<std::string> remarks;  ///< what was assumed, and what looks doubtful
+  std::vector<std::string> remarks;  ///< what was assumed, and what is doubtful
 };
 
 /// Runs the stages up to `last`, within the memory that the settings allow. Each leaves its volume
-/// in `folder`, a sealed file that also says what it was made from and with which settings, and is
-/// read instead of computed when both are still the same. `on_stage` is called before each, and
-/// `on_remark` with each of Segmentation::remarks as soon as it is known. Throws Error; files
-/// appear only when complete.
+/// in `folder`, a sealed file that also records its source and its settings, and is read instead of
+/// computed when both are still the same. `on_stage` is called before each, and `on_remark` with
+/// each of Segmentation::remarks as soon as it is known. Throws Error; files appear only when
+/// complete.
 [[nodiscard]] Segmentation segment_scan(const SegmentSettings& settings,
                                         const std::filesystem::path& folder, ScanStage last,
                                         const std::function<void(ScanStage)>& on_stage,

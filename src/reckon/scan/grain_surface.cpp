@@ -199,7 +199,7 @@ GrainSurface extract_grain(const SegmentedScan& scan, std::uint32_t label,
     surface.mesh_world = largest_component(extract_surface(level_set_of(own, level)));
     return enclosed_volume(surface.mesh_world) / surface.gray_volume - 1;
   };
-  // Secants. A whole share moves the surface by about two voxels, which tells the first step.
+  // Secants. A whole share moves the surface by about two voxels, which gives the first step.
   const double diameter = portable::cbrt(6 * piece.gray_volume / std::numbers::pi);  // [voxels]
   double slope = -12 / diameter;
   double level = 0.5;

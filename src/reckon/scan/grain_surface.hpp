@@ -11,13 +11,13 @@
 
 namespace reckon {
 
-/// How many layers beyond its labelled voxels a grain's blurred edge is looked for.
+/// How many layers beyond its labelled voxels the blurred edge of a grain is searched.
 inline constexpr int territory_layers = 3;
 
 /// What grains are cut out of.
 struct SegmentedScan {
-  const GrayVolume* raw{nullptr};       ///< as scanned: tells volumes
-  const GrayVolume* denoised{nullptr};  ///< tells surfaces
+  const GrayVolume* raw{nullptr};       ///< as scanned: gives volumes
+  const GrayVolume* denoised{nullptr};  ///< gives surfaces
   const LabelVolume* labels{nullptr};
   const LabelVolume* territories{nullptr};  ///< labels, grown by territory_layers
   GrayLevels levels;

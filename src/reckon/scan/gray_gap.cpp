@@ -15,7 +15,7 @@ constexpr double line_step = 0.25;  // [voxels]
 constexpr int line_half_steps = 14;
 
 /// Trilinear interpolation between voxel centres; voxels outside count as the nearest inside, so a
-/// part of a volume must reach as far as it is asked for.
+/// part of a volume must cover the requested range.
 double value_at(const GrayVolume& gray, const Vec3& world) {
   std::array<std::int32_t, 3> cell{};
   std::array<double, 3> place{};

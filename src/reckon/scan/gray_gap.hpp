@@ -33,7 +33,7 @@ class EdgeProfile {
   std::uint64_t lines_{0};
 };
 
-/// The least gap between two grains as the gray values tell it [m]; about 0 where they touch, and
+/// The smallest gap between two grains, from the gray values [m]; about 0 where they touch, and
 /// below 0 only by noise.
 ///
 /// The void shares summed up along a line across the gap are its width there, however blurred,

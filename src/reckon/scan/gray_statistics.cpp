@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t bins = 256;
 constexpr std::uint64_t tail_parts = 1000;  // of which one is left out at either end
 constexpr std::array away{2.5F, 1.0F};      // from the surface: beyond its blur, or at least inside
-constexpr std::int32_t depth_reach = 3;     // which voxels tell whether another is `away`
+constexpr std::int32_t depth_reach = 3;     // of the voxels that decide whether another is `away`
 constexpr std::uint64_t fewest_for_level = 100;
 
 /// A float's bits, turned such that they sort as the numbers do.

@@ -49,7 +49,7 @@ bool is_volume(hid_t root, const char* name) {
     const Hdf5Handle dataset = hdf5_open_dataset(root, name, {});
     return dataset.valid() && is_volume(dataset.get());
   } catch (const Error&) {
-    return true;  // kept in another file: opening it says so
+    return true;  // kept in another file: opening it reports that
   }
 }
 
@@ -60,7 +60,7 @@ herr_t collect_volumes(hid_t root, const char* name, const H5O_info_t* info, voi
   return 0;
 }
 
-/// A damaged or hostile header must not ask for memory that no file could fill. What is packed
+/// A damaged or hostile header must not cause an allocation that no file could fill. What is packed
 /// takes less than it holds, but no scan of grains takes so little.
 void check_storage(hid_t dataset, std::uint64_t bytes, const std::filesystem::path& path) {
   constexpr std::uint64_t most_compression = 10000;

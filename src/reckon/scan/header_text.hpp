@@ -51,7 +51,7 @@ bool is_among(const Names& names, std::string_view name) {
 [[nodiscard]] std::int64_t integer_in(std::string_view text, std::string_view key,
                                       const std::string& place);
 
-/// What a header says about its axes, in the order of the file. Parts that it leaves out are empty.
+/// The axes in a header, in the order of the file. Parts that it leaves out are empty.
 struct HeaderAxes {
   std::vector<double> lengths;                  ///< in voxels
   std::vector<double> edges;                    ///< of a voxel; NaN: not known

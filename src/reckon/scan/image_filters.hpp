@@ -10,7 +10,7 @@
 #include "reckon/scan/volume.hpp"
 
 /// The image processing that the Insight Toolkit does for us: the component `ct`. In a build
-/// without it each of these throws an Error that says how to get it. All use all threads; the
+/// without it each of these throws an Error that states how to get it. All use all threads; the
 /// results do not depend on their number.
 namespace reckon {
 

@@ -22,8 +22,8 @@ struct LabelPieces {
 /// Sets what grains were called before: LabelledGrain::given and ::piece, by falling size.
 void name_by_label(std::vector<LabelledGrain>& grains, const LabelPieces& pieces);
 
-/// What a user should know about the labels: those of several pieces that are large enough to be
-/// grains, and a mask that was taken for labels.
+/// Remarks on the labels: those of several pieces that are large enough to be grains, and a mask
+/// that was taken for labels.
 [[nodiscard]] std::vector<std::string> label_remarks(const std::vector<LabelledGrain>& grains,
                                                      std::uint64_t fewest_voxels);
 

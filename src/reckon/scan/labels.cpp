@@ -39,13 +39,13 @@ struct Pass {
   std::uint32_t b;
   float depth;
   double width;   // over the depth of the shallower piece
-  bool is_solid;  // as the gray values tell
+  bool is_solid;  // from the gray values
   VoxelDims place;
 };
 
 // What lies less deep is darkened by the surface's own blur.
-constexpr float gray_depth = 2;   // of the voxels of a face that tell its gray [voxels]
-constexpr float solid_depth = 3;  // of the voxels that tell a piece's own solid
+constexpr float gray_depth = 2;   // of the voxels that give the gray of a face [voxels]
+constexpr float solid_depth = 3;  // of the voxels that give the solid of a piece
 constexpr std::uint64_t fewest_in_neck = 4;
 constexpr std::uint64_t fewest_solid = 30;
 

@@ -28,7 +28,7 @@ struct NeckRules {
   /// are different minerals, and are never joined.
   double other_mineral{0.3};
   double void_gray{0};
-  double solid_gray{1};  ///< of pieces too small to tell their own
+  double solid_gray{1};  ///< of pieces too small for their own value
 };
 
 /// Where two pieces were joined.
@@ -49,7 +49,7 @@ struct JoinedPieces {
 /// its last, slab by slab.
 class NeckJoiner {
  public:
-  /// The first `layers` of what is given; one more layer, which comes again, tells the faces
+  /// The first `layers` of what is given; one more layer, which is given again, has the faces
   /// between. `gray` as scanned, or null.
   void add(const LabelVolume& pieces, const GrayVolume& depth, const GrayVolume* gray,
            std::int32_t layers);

@@ -85,12 +85,12 @@ struct Look {
   double value{0};
 };
 
-/// A polynomial through looks, and how well it stands for them.
+/// A polynomial fitted to the samples, and the quality of the fit.
 struct Fit {
   Polynomial polynomial{0};
   double mean{0};
-  double change{0};     // of the polynomial, from the least to the largest at the looks
-  double explained{0};  // share of the looks' variance
+  double change{0};     // of the polynomial: max minus min at the samples
+  double explained{0};  // share of the variance of the samples
 };
 
 double median_of(std::vector<double> values) {
@@ -117,8 +117,8 @@ void solve(const std::vector<Look>& looks, Polynomial& polynomial) {
   }
 }
 
-/// Looks far off the polynomial are dropped, and it is fitted anew.
-/// `half_cell`: how far a look stands for, on either side along each axis.
+/// Samples far off the polynomial are dropped, and it is fitted again. `half_cell`: the range of a
+/// sample, on either side along each axis.
 Fit fit_of(std::vector<Look> looks, const std::array<double, 3>& half_cell) {
   constexpr int fits = 4;
   constexpr double far_off = 4;  // times the median distance

@@ -16,7 +16,7 @@ constexpr std::array meta_types{
     NamedType{"MET_USHORT", VoxelType::uint16}, NamedType{"MET_SHORT", VoxelType::int16},
     NamedType{"MET_UINT", VoxelType::uint32},   NamedType{"MET_INT", VoxelType::int32},
     NamedType{"MET_FLOAT", VoxelType::float32}, NamedType{"MET_DOUBLE", VoxelType::float64}};
-// What neither says where the numbers lie, nor what they are, nor how they lie in space.
+// Fields that give neither the place, nor the type, nor the axes of the numbers.
 constexpr std::array meta_ignored{"ObjectType",
                                   "ObjectSubType",
                                   "BinaryData",

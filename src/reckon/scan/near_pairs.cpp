@@ -27,7 +27,7 @@ Posed pose(std::span<const ShapeView> shapes, const GrainState& grain) {
   return {shapes[grain.shape.get()], rotation_matrix(grain.orientation), grain.position};
 }
 
-/// Looks for the node of `nodes` that lies deepest in `field`; `sign` turns the normal from a to b.
+/// Finds the node of `nodes` that lies deepest in `field`; `sign` turns the normal from a to b.
 void search(const Posed& nodes, const Posed& field, double sign, NearPair& best) {
   for (const NodeCluster& cluster : nodes.shape.clusters) {
     const Vec3 center = nodes.to_world(cluster.center_body);
@@ -114,7 +114,7 @@ Amidst amidst(const Posed& a, const Posed& b, Vec3 place) {
   return best;
 }
 
-/// Looks for the least larger phi by steps in 26 directions, which halve where none leads on.
+/// Minimises the larger phi by steps in 26 directions, halved where none improves.
 void settle_between(const Posed& a, const Posed& b, NearPair& pair) {
   const double spacing = std::max(a.shape.level_set.spacing, b.shape.level_set.spacing);
   Amidst best = amidst(a, b, pair.point_world);

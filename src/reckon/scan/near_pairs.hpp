@@ -20,16 +20,16 @@ struct NearPair {
   Vec3 normal_world;  ///< from a to b, unit length
 };
 
-/// All pairs with a gap of at most `reach` (which a grid knows up to its padding of two spacings),
-/// sorted by a, then b. Uses all threads; the result does not depend on their number.
+/// All pairs with a gap of at most `reach` (a grid holds distances up to its padding of two
+/// spacings), sorted by a, then b. Uses all threads; the result does not depend on their number.
 [[nodiscard]] std::vector<NearPair> near_pairs(std::span<const ShapeView> shapes,
                                                std::span<const GrainState> grains, double reach);
 
-/// All pairs whose surfaces come within `reach` of each other, whether or not a node is there to
-/// tell: from the node that near_pairs finds, a search for the place where the larger phi is least.
-/// Twice that is the gap between the surfaces, or minus the depth of their overlap. The normal
-/// halves the angle between them. Grids know distances up to their padding of two spacings: `reach`
-/// should be less.
+/// All pairs whose surfaces come within `reach` of each other, whether or not a node lies there. It
+/// starts at the node that near_pairs finds and searches the place where the larger phi is
+/// smallest. Twice that is the gap between the surfaces, or minus the depth of their overlap. The
+/// normal halves the angle between them. Grids hold distances up to their padding of two spacings:
+/// `reach` should be less.
 [[nodiscard]] std::vector<NearPair> near_surfaces(std::span<const ShapeView> shapes,
                                                   std::span<const GrainState> grains, double reach);
 

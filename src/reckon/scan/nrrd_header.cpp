@@ -39,7 +39,7 @@ constexpr std::array nrrd_types{NamedType{"uchar", VoxelType::uint8},
                                 NamedType{"int32_t", VoxelType::int32},
                                 NamedType{"float", VoxelType::float32},
                                 NamedType{"double", VoxelType::float64}};
-// What neither says where the numbers lie, nor what they are, nor how they lie in space.
+// Fields that give neither the place, nor the type, nor the axes of the numbers.
 constexpr std::array nrrd_ignored{
     "space",        "kinds",       "space origin", "centers",     "centerings",
     "content",      "labels",      "number",       "thicknesses", "measurement frame",
@@ -102,7 +102,7 @@ void set_data_files(VolumeHeader& header, std::string_view value, std::string_vi
   }
 }
 
-/// Fields that say where the numbers lie in their file.
+/// Fields that give the place of the numbers in their file.
 bool set_place(VolumeHeader& header, std::string_view key, std::string_view value,
                const std::string& place) {
   if (key == "line skip" || key == "lineskip") {

@@ -17,7 +17,7 @@ constexpr int deblur_rounds = 5;
 constexpr double label_smoothing = 2;  // against staircases [voxels]
 constexpr double film_smoothing = 1;   // in each round of the border's motion [voxels]
 constexpr int film_rounds = 16;
-constexpr float no_solid = 1e-3F;  // shares below do not tell whose they are
+constexpr float no_solid = 1e-3F;  // smaller shares are not assigned to a grain
 
 GrayVolume blurred(GrayVolume volume, double deviation) {
   blur_volume(volume, deviation);

@@ -13,8 +13,8 @@ struct OwnShare {
 };
 
 /// What of solid shares is a grain's own. `ownership`: 1 in voxels labelled as the grain, 0 in its
-/// neighbours, 1/2 in void. `blur`: the deviation of the edges' [voxels]; for edges of 0.95 voxels,
-/// anything from 0.8 to 1.1 finds the same surfaces.
+/// neighbours, 1/2 in void. `blur`: the standard deviation of that of the edges [voxels]; for edges
+/// of 0.95 voxels, anything from 0.8 to 1.1 finds the same surfaces.
 ///
 /// Blur fills the narrow void around a contact from both sides, and labels end in staircases.
 /// Therefore

@@ -105,7 +105,7 @@ class PackedVolume : public ByteLayers {
                    fmt::format("they end in layer {} of {}", next_layer_ + 1, outline.dims[2]));
     }
     if (next_layer_ < outline.dims[2]) return;
-    std::array<std::byte, 1> more{};  // also sees to the checksum at the end
+    std::array<std::byte, 1> more{};  // also verifies the checksum at the end
     if (stream_.read(more) > 0) {
       stream_.fail("and its header disagree",
                    fmt::format("they go on behind the {} layers", outline.dims[2]));

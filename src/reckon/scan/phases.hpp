@@ -28,7 +28,7 @@ struct GrayPhases {
 [[nodiscard]] GrayPhases find_phases(const GrayOnDisk& gray, const MaskOnDisk& inside,
                                      const Workspace& work);
 
-/// How far faint_solid() looks [voxels].
+/// The reach of faint_solid() [voxels].
 inline constexpr std::int32_t faint_reach = 8;
 /// Voxels of the faint phase: bodies of its gray that a ball of two voxels' radius fits into, and
 /// their edges. The edges of brighter grains pass through the same grays but are thinner.

@@ -23,20 +23,20 @@ struct AvatarQuality {
   std::uint32_t label{0};
   std::uint32_t given_label{0};  ///< LabelledGrain::given
   std::uint64_t voxels{0};
-  double label_volume{0};       ///< of its voxels [m^3]
-  double gray_volume{0};        ///< of its solid shares [m^3]
-  double volume{0};             ///< of the avatar [m^3]
-  double level{0};              ///< solid share at its surface
-  double solid_gray{0};         ///< deep inside it
-  double gradient_error{0};     ///< mean of ||grad phi| - 1| at its nodes
-  double surface_distance{0};   ///< root mean square of phi on the scanned surface [m]
-  double area_kept{0};          ///< area that contact sees over that of the scanned surface
+  double label_volume{0};      ///< of its voxels [m^3]
+  double gray_volume{0};       ///< of its solid shares [m^3]
+  double volume{0};            ///< of the avatar [m^3]
+  double level{0};             ///< solid share at its surface
+  double solid_gray{0};        ///< deep inside it
+  double gradient_error{0};    ///< mean of ||grad phi| - 1| at its nodes
+  double surface_distance{0};  ///< root mean square of phi on the scanned surface [m]
+  double area_kept{0};  ///< area of the zero surface of the grid over that of the scanned surface
   double deepest_overlap{0};    ///< with any neighbour at the scanned pose [m]
   std::uint32_t neighbours{0};  ///< nearer than contact_reach
   std::uint32_t contacts{0};
 };
 
-/// How near avatars are whose contact the gray values are asked for [voxels].
+/// The largest gap of avatars whose contact is tested in the gray values [voxels].
 inline constexpr double contact_reach = 1.5;
 
 /// A pair of avatars as scanned.

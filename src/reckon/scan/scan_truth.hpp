@@ -29,9 +29,9 @@ struct TruthFigures {
   double volume_error_absolute{0};  ///< mean of |V / V_true - 1|
   double inertia_error{0};          ///< mean over grains and axes of |I / I_true - 1|
   double center_error{0};           ///< mean distance of the centres [voxels]
-  double axis_error{0};     ///< mean angle of the long axes where moments tell them apart [rad]
-  double surface_error{0};  ///< mean |phi_true| at the avatars' nodes [voxels]
-  double normal_error{0};   ///< mean angle to the true normal at the avatars' nodes [rad]
+  double axis_error{0};             ///< mean angle of the long axes where the moments differ [rad]
+  double surface_error{0};          ///< mean |phi_true| at the avatars' nodes [voxels]
+  double normal_error{0};           ///< mean angle to the true normal at the avatars' nodes [rad]
   std::uint32_t true_contacts{0};   ///< between grains that the scan shows whole, found or not
   std::uint32_t found_contacts{0};  ///< of avatars, but for those of grains that are cut off
   std::uint32_t right_contacts{0};  ///< of grains found once, both

@@ -29,8 +29,7 @@ struct ScanArtefacts {
   double crack_width{1};  ///< [voxels]
 };
 
-/// What a scanner does to the solid that it sees. Gray values are in units of the step from void to
-/// solid.
+/// The imaging of solid by a scanner. Gray values are in units of the step from void to solid.
 struct ScannerSettings {
   double voxel{0};            ///< edge of a voxel [m]
   double margin{4};           ///< void around the grains; a tube or a floor needs more [voxels]

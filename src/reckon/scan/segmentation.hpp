@@ -80,9 +80,9 @@ struct SplitGrains {
 };
 /// Watershed of the depth below the surface, block by block: a piece is that of the block in whose
 /// core it is deepest. Then pieces are joined that no neck divides. `gray` (as scanned, or null)
-/// and its levels tell necks that are solid from touching grains. Throws Error when nothing is
-/// found, when one blob reaches all through the volume, or a piece reaches so near to a cut face of
-/// its block that its depth there is not known.
+/// and its levels distinguish solid necks from touching grains. Throws Error when nothing is found,
+/// when one body extends through the whole volume, or a piece reaches so near to a cut face of its
+/// block that its depth there is not known.
 [[nodiscard]] SplitGrains split_grains(const MaskOnDisk& mask, const SplitSettings& settings,
                                        const GrayOnDisk* gray, const GrayLevels& levels,
                                        const Workspace& work);

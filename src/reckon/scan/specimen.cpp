@@ -340,7 +340,7 @@ MaskOnDisk find_inside(const GrayOnDisk& raw, const SpecimenSettings& settings,
   if (share < least_outside || share > 1 - least_outside) return {};
   MaskOnDisk inside = complement(outside, work);
   const RoughLevels levels = rough_levels(raw, inside, work);
-  // A constant void needs no care, and one that surrounds each grain is no outside.
+  // A constant void is no fault, and one that surrounds each grain is no outside.
   constexpr double same_gray = 0.03;
   if (std::abs(*gray - levels.void_gray) < same_gray * levels.step()) return {};
   if (surfaces_at_outside(raw, outside, levels.threshold, work) > 0.5) return {};

@@ -135,7 +135,7 @@ TiffPage describe_page(const TiffFile& file) {
   const auto format = field<std::uint16_t>(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
   const auto samples = field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL, 1);
   const auto meaning = field<std::uint16_t>(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-  // Palettes, and whether 0 is black or white, tell how to show the numbers that were measured.
+  // Palettes, and whether 0 is black or white, concern only the display of the measured numbers.
   const bool gray = meaning <= PHOTOMETRIC_MINISBLACK || meaning == PHOTOMETRIC_PALETTE;
   if (samples != 1 || !gray) {
     refuse_volume(file.path(), "the file holds colours or vectors",

@@ -57,18 +57,18 @@ struct TiffPage {
   friend bool operator==(const TiffPage&, const TiffPage&) = default;
 };
 /// How many voxels a file of this length can hold at most, were it ever so well compressed: a
-/// damaged header must not ask for memory that no file could fill.
+/// damaged header must not cause an allocation that no file could fill.
 [[nodiscard]] std::uint64_t most_tiff_voxels(const TiffFile& file, VoxelType type);
-/// What the present page says of itself. Throws Error when it is not in shades of gray, or when
-/// its pixels lie beyond the file's end.
+/// The properties of the current page. Throws Error when it is not in shades of gray, or when its
+/// pixels lie beyond the file's end.
 [[nodiscard]] TiffPage describe_page(const TiffFile& file);
-/// What the present page says about its voxels, and the description of all.
+/// The voxel of the current page, and the description of the whole file.
 struct TiffFrame {
   TiffDescription description;
   FileSpacing spacing;
   std::vector<std::string> remarks;
 };
-/// Throws Error when the file says that voxels are no cubes, or that it holds several volumes whose
+/// Throws Error when the voxels of the file are no cubes, or that it holds several volumes whose
 /// slices alternate.
 [[nodiscard]] TiffFrame describe_frame(const TiffFile& file);
 /// Where the numbers of the present page begin if they lie in one piece, as they are, rows from the

@@ -62,7 +62,7 @@ std::string beginning_of(const ByteFile& file) {
   return bytes;
 }
 
-/// Where a file goes on after so many lines of text.
+/// The offset in a file after so many lines of text.
 std::uint64_t after_lines(const ByteFile& file, std::uint64_t start, std::uint64_t lines) {
   std::vector<char> buffer(65536);
   for (std::uint64_t at = start; lines > 0;) {

@@ -35,11 +35,11 @@ struct VolumeRequest {
 /// A voxel's edge as a file gives it.
 struct FileSpacing {
   std::optional<double> edge;  ///< in `unit`
-  std::optional<double> unit;  ///< [m]; absent when the file does not say it
+  std::optional<double> unit;  ///< [m]; absent when the file does not give it
   std::string field;           ///< name of the field that gives it
 };
 
-/// What a volume's file says about it.
+/// The properties of a volume, from its file.
 struct VolumeOutline {
   VoxelDims dims{0, 0, 0};
   VoxelType type{VoxelType::float32};
@@ -65,7 +65,7 @@ struct StoredVolume : VolumeOutline {
 
 /// Reads a volume by the ending of its name:
 ///
-///   .raw        numbers and nothing else; NAME.raw.txt beside it says what they are, in lines
+///   .raw        numbers only; NAME.raw.txt beside it describes them, in lines
 ///                 `dims NX NY NZ`, `type uint16`, `order little` (or big)
 ///   .npy        NumPy; the last axis is x
 ///   .h5 .hdf5   a dataset of three dimensions, the last of which is x; axes of length 1 do not
@@ -76,12 +76,13 @@ struct StoredVolume : VolumeOutline {
 ///               or a folder of slices in the order of the numbers in their names (slice_order.hpp)
 ///
 /// Axes that a file runs backwards (NRRD's space directions, MetaImage's TransformMatrix) are
-/// mirrored, so that the volume lies as the header says. Axes that it turns are refused.
+/// mirrored, so that the volume has the orientation of the header. Rotated axes are refused.
 ///
-/// Layers are read and unpacked as they are asked for, which is fastest from the first to the last.
+/// Layers are read and unpacked when they are requested, which is fastest from the first to the
+/// last.
 ///
 /// Throws Error when the file is damaged, cut short, of another number of dimensions, its slices
-/// differ in size, or the voxel that it tells is not that of the request.
+/// differ in size, or its voxel is not that of the request.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_volume(const VolumeRequest& request);
 /// All of a volume. Throws Error also when it holds values that are not finite.
 [[nodiscard]] StoredVolume read_volume(const VolumeRequest& request);
@@ -91,7 +92,7 @@ struct LoadedVolume {
   Values volume;
   std::vector<std::string> remarks;
 };
-/// Likewise, from file to file. `on_layers` sees it pass by.
+/// Likewise, from file to file. `on_layers` is called with each part.
 [[nodiscard]] LoadedVolume<GrayOnDisk> load_volume(
     const VolumeRequest& request, const Workspace& work,
     const std::function<void(const GrayVolume&)>& on_layers = {});

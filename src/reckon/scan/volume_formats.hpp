@@ -37,9 +37,9 @@ void check_dims(const std::array<std::int64_t, 3>& dims, std::uint64_t most,
 /// What a file's name ends in, in small letters: ".tif".
 [[nodiscard]] std::string ending_of(const std::filesystem::path& file);
 
-/// What the head of a file says, or what stands for it. Heads of MetaImage and NRRD are read by
-/// ourselves: the libraries for these formats do not survive every damaged one, and take less than
-/// a whole file for whole.
+/// The content of the header of a file, or of its substitute. Heads of MetaImage and NRRD are read
+/// by ourselves: the libraries for these formats do not survive every damaged one, and take less
+/// than a whole file for whole.
 struct VolumeHeader {
   std::array<std::int64_t, 3> dims{};
   VoxelType type{VoxelType::uint8};
@@ -78,7 +78,7 @@ inline constexpr std::size_t longest_header = 131072;
 /// Throws Error unless the numbers take just `bytes`.
 void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::string& place);
 
-/// What a header says, once its dimensions were checked.
+/// The content of a header, after its dimensions were checked.
 [[nodiscard]] VolumeOutline outline_of(const VolumeHeader& header);
 
 /// A volume whose numbers lie in a file as they are, one behind the other from the header's
@@ -92,7 +92,7 @@ void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::st
 [[nodiscard]] std::unique_ptr<VolumeReader> mirrored(std::unique_ptr<VolumeReader> reader,
                                                      const std::array<bool, 3>& axes);
 /// Likewise, as zlib or gzip packed them. Reading throws Error when they are damaged, cut short, or
-/// not as many as the header says.
+/// not as many as in the header.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_packed_volume(std::shared_ptr<const ByteFile> file,
                                                                const VolumeHeader& header);
 [[nodiscard]] std::unique_ptr<VolumeReader> open_hdf5_volume(const std::filesystem::path& file,

@@ -33,7 +33,7 @@ std::array<std::size_t, 2> axes_of(CellAxis axis) {
   }
 }
 
-/// Whether a wall looks the same from everywhere along an axis.
+/// Whether a wall is invariant along an axis.
 bool is_same_along(const WallSurface& surface, int axis) {
   if (const auto* plane = std::get_if<PlaneSurface>(&surface)) return plane->normal_unit[axis] == 0;
   if (const auto* ledge = std::get_if<LedgeSurface>(&surface)) {

@@ -9,9 +9,9 @@
 
 namespace reckon {
 
-/// Where nodes lie too far apart for what they touch, so that it can sink in between them and no
-/// force answers: which shapes, how far, and what to do; nothing where all is well. Looked at are
-/// the pairs of grains that `contact.master` allows, and walls.
+/// Where nodes lie too far apart for what they touch, so that it can sink in between them without a
+/// force: which shapes, how far, and the remedy. Nothing where the spacing is small enough. Tested
+/// are the pairs of grains that `contact.master` allows, and walls.
 ///
 ///     master's nodes   o           o           o        spacing h = sqrt(area / nodes)
 ///                          .---.

@@ -19,7 +19,7 @@ struct SceneKey {
   Range range{};
   bool required{false};
   bool folder_allowed{false};    ///< for file: whether a folder will do
-  std::string_view standard{};   ///< in words, where the config's default says too little
+  std::string_view standard{};   ///< in words, where the default of the config is not enough
   std::string_view unit_note{};  ///< for the reference, where the unit depends on another key
   std::string_view meaning;
 };
@@ -30,7 +30,7 @@ struct Choice {
   std::string_view word;
   Value value;
 };
-template <class Value>  // which compilers before C++20's own rule need to be told
+template <class Value>  // needed by compilers without the C++20 rule
 Choice(std::string_view, Value)->Choice<Value>;
 
 /// Choices of names that are kept beside what they name.

@@ -497,7 +497,7 @@ void resolve_defaults(SceneConfig& scene) {
   }
   for (WallConfig& wall : scene.walls) {
     if (!wall.friction) wall.friction = scene.material.friction;
-    if (scene.contact.law == ContactLawKind::hertz) continue;  // knows no stiffness
+    if (scene.contact.law == ContactLawKind::hertz) continue;  // has no stiffness
     if (!wall.normal_stiffness) wall.normal_stiffness = scene.contact.normal_stiffness;
     if (!wall.shear_stiffness) wall.shear_stiffness = scene.contact.shear_stiffness;
   }

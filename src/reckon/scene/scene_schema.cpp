@@ -127,7 +127,7 @@ class Collector {
 
   SceneSchema& schema_;
   std::string table_;
-  bool needed_{false};       // whether the table at hand cannot be left out
+  bool needed_{false};       // whether the current table is required
   bool alternative_{false};  // inside a choice of keys of which one is given
 };
 

@@ -29,7 +29,7 @@ Bytes packed(const LoadedScene& scene) {
   return bytes;
 }
 
-/// Opens the libraries when the first shape is asked for: most ranks never are.
+/// Opens the libraries when the first shape is needed: most ranks read none.
 ShapeStore::Read lazy_reader(const std::vector<GrainsConfig>& sets) {
   auto catalog = std::make_shared<ShapeCatalog>();
   return [catalog, sets](ShapeId shape) {

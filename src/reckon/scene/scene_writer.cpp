@@ -21,7 +21,7 @@
 namespace reckon {
 namespace {
 
-/// The shortest text that reads back as `value`. TOML's integers know no negative zero.
+/// The shortest text that reads back as `value`. TOML integers have no negative zero.
 std::string toml_number(double value) {
   return value == 0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value);
 }

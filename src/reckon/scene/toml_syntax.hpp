@@ -16,7 +16,7 @@ namespace reckon {
 struct TomlSyntax {
   toml::table root;
   std::vector<SceneFault> faults;
-  bool readable{false};  ///< whether `root` holds what the sound lines say
+  bool readable{false};  ///< whether `root` holds the content of the valid lines
 };
 
 /// Reads TOML and, after a fault of syntax, blanks its line and reads again, so that later faults

@@ -8,10 +8,10 @@
 namespace reckon {
 
 /// What this process may still take: what the system has available, or its own limit [bytes]. The
-/// largest number where the system does not say.
+/// largest number where the system does not report it.
 [[nodiscard]] std::uint64_t free_memory();
 
-/// Throws Error when `what` needs more memory than there is, before it is asked for.
+/// Throws Error when `what` needs more memory than there is, before it is allocated.
 void require_memory(std::uint64_t bytes, const std::string& what, const std::string& fix);
 
 }  // namespace reckon

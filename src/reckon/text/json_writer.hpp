@@ -11,7 +11,7 @@
 
 namespace reckon {
 
-/// Writes JSON (RFC 8259), indented by two spaces, for machines that read what reckon says.
+/// Writes JSON (RFC 8259), indented by two spaces, for programs that read the output of reckon.
 /// Numbers read back as the same bits; infinities and NaN, which JSON lacks, become null.
 ///
 ///   JsonWriter json;                      {

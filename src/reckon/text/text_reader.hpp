@@ -10,9 +10,9 @@
 
 namespace reckon {
 
-/// Walks through a text line by line and token by token, and knows where it is, so that every
-/// complaint names file and line. Tokens are separated by blanks; \n, \r\n and \r end lines.
-/// Does not own the text.
+/// Walks through a text line by line and token by token, and keeps the position, so that every
+/// complaint names file and line. Tokens are separated by blanks; \n, \r\n and \r end lines. Does
+/// not own the text.
 class TextReader {
  public:
   /// Skips the byte-order mark of UTF-8. Throws Error for text in UTF-16, which would fall apart.

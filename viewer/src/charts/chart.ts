@@ -10,7 +10,7 @@ const ink = "#3c4349";
 const faint = "#e7e5df";
 const font = '12px system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif';
 
-/** What a chart tells the others beside it. */
+/** The messages of a chart to the other charts. */
 export interface ChartEvents {
   /** The pointer or the arrow keys are at this value of x; null: gone. */
   hovered(x: number | null): void;

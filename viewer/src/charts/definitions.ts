@@ -133,7 +133,7 @@ function available(curve: CurveDefinition, histories: readonly History[]): boole
   return histories.some((history) => curve.needs.every((name) => history.has(name)));
 }
 
-/** Whether a curve says anything: a column of zeros is left out where others share its chart. */
+/** Whether a curve is shown: a column of zeros is left out where others share its chart. */
 function moves(curve: CurveDefinition, histories: readonly History[]): boolean {
   return histories.some((history) => {
     if (!curve.needs.every((name) => history.has(name))) return false;

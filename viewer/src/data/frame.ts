@@ -22,7 +22,7 @@ export class Frame {
   readonly orientation: Float32Array; // w, x, y, z
   readonly radius: Float32Array;
   readonly equivalentRadius: Float32Array;
-  readonly cellShift: Float32Array; // from a grain's image in the periodic cell to its own way; empty without
+  readonly cellShift: Float32Array; // from the image of a grain in the periodic cell to its unwrapped position; empty without
   readonly ends: Uint32Array;
   readonly force: Float32Array; // on the first end
   readonly branch: Float32Array; // from the first end's centre to the other's, or to the wall

@@ -110,7 +110,7 @@ function parsed<T>(text: string): T | null {
   }
 }
 
-/** One run: what its head says, and its frames as they are asked for. */
+/** One run: its head, and its frames when they are requested. */
 export class Run {
   readonly text: HeadText;
   readonly history: History;

@@ -9,7 +9,7 @@ export interface Source {
   piece<Text>(name: string): Promise<Piece<Text>>;
 }
 
-/** Pieces that lie in the page itself. Each is unpacked when it is first asked for. */
+/** Pieces that lie in the page itself. Each is unpacked at its first request. */
 class PageSource implements Source {
   readonly live = false;
   readonly runs: number;

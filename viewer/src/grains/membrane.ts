@@ -11,7 +11,7 @@ import {
 } from "three";
 import type { Frame } from "../data/frame.ts";
 
-/** The membrane of a frame: a skin to see through, and its net. */
+/** The membrane of a frame: a transparent skin, and its net. */
 export class MembraneView {
   readonly group = new Group();
   private readonly skin = new Mesh(

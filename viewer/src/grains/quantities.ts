@@ -26,7 +26,7 @@ function magnitude(numbers: Float32Array, components: number, row: number): numb
   return Math.hypot(...numbers.subarray(components * row, components * (row + 1)));
 }
 
-/** Where a grain's own way led it along an axis [m]: drawn is its image in the periodic cell. */
+/** The unwrapped position of a grain along an axis [m]: its image in the periodic cell is drawn. */
 function way(frame: Frame, row: number, axis: number): number {
   return frame.position[3 * row + axis] + (frame.cellShift[3 * row + axis] ?? 0);
 }

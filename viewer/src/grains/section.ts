@@ -173,7 +173,7 @@ export class GrainSection {
     this.wanted = at;
     const run = this.run;
     const frame = await run.frame(at);
-    if (run !== this.run || at !== this.wanted) return; // something newer was asked for meanwhile
+    if (run !== this.run || at !== this.wanted) return; // a newer request came meanwhile
     this.frameNumber = at;
     this.frame = frame;
     this.membraneField.hidden = !run.text.walls.some(({ mould }) => mould);

@@ -193,7 +193,7 @@ export class GrainView {
     this.chooseSurfaces();
   }
 
-  /** Contacts as bars between centres, as thick as `thickness` says [m]; null: none. */
+  /** Contacts as bars between centres, with this `thickness` [m]; null: none. */
   setChains(thickness: ((contact: number) => number) | null, colour?: (contact: number) => Rgb): void {
     if (this.chains) {
       this.scene.remove(this.chains);
@@ -255,7 +255,7 @@ export class GrainView {
     this.draw();
   }
 
-  /** Looks at the whole frame, obliquely or along an axis. */
+  /** Shows the whole frame, obliquely or along an axis. */
   lookAt(direction: Axis | "oblique"): void {
     if (!this.frame) return;
     const { low, high } = boundsOf(this.frame);

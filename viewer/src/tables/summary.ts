@@ -50,7 +50,7 @@ const rows: Row[] = [
   },
 ];
 
-/** What a reader wants to know first, a column per run. */
+/** The most important figures, a column per run. */
 export function summary(runs: readonly Run[]): HTMLElement {
   const shown = rows.filter((row) => runs.some((run) => row.value(run) !== ""));
   if (runs.length === 1) {
