@@ -4,6 +4,8 @@
 import csv
 import json
 import re
+import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import matplotlib
@@ -71,6 +73,14 @@ def arrays(path: Path) -> dict[str, np.ndarray]:
 def runs_and_labels(arguments: list[str]) -> list[tuple[str, str]]:
     """RUN=LABEL or RUN each."""
     return [(run, label or run) for run, _, label in (argument.partition("=") for argument in arguments)]
+
+
+def plot_runs(usage: str, x: str, names: list[str], curve_of: Callable[[str, str], tuple]) -> None:
+    """The program of a script with the arguments PICTURE RUN[=LABEL]...: `curve_of(run, label)` is (x, y of the first, ...)."""
+    if len(sys.argv) < 3:
+        sys.exit(usage)
+    lines = [(label, *curve_of(run, label)) for run, label in runs_and_labels(sys.argv[2:])]
+    plot_over_one_axis(sys.argv[1], x, names, lines)
 
 
 def plot_over_one_axis(picture: str, x: str, names: list[str], curves: list[tuple]) -> None:

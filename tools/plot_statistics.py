@@ -9,12 +9,7 @@ import argparse
 import csv
 import pathlib
 
-import matplotlib
-
-matplotlib.use("svg")
-matplotlib.rcParams["svg.hashsalt"] = "reckon"  # equal tables give equal files
-matplotlib.rcParams["svg.fonttype"] = "none"
-import matplotlib.pyplot as plt  # noqa: E402: the backend comes first
+from svg_plots import plt
 
 
 def read_columns(path):

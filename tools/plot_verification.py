@@ -15,12 +15,7 @@ import math
 import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("svg")
-matplotlib.rcParams["svg.hashsalt"] = "reckon"  # equal tables give equal files
-matplotlib.rcParams["svg.fonttype"] = "none"
-import matplotlib.pyplot as plt  # noqa: E402: the backend comes first
+from svg_plots import plt
 
 
 def read_table(path):

@@ -12,17 +12,11 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 import curves
 
 
-def main() -> None:
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    lines = []
-    for run, label in curves.runs_and_labels(sys.argv[2:]):
-        shear = curves.last_stage(run)
-        ratio = -shear["stress_xy_Pa"] / shear["stress_yy_Pa"]
-        lines.append((label, 100 * shear["cell_shear_xy"], ratio, -100 * shear["volumetric_strain"]))
-    names = ["shear stress / normal stress", "dilation [%]"]
-    curves.plot_over_one_axis(sys.argv[1], "shear strain [%]", names, lines)
+def curve(run: str, _label: str) -> tuple:
+    shear = curves.last_stage(run)
+    ratio = -shear["stress_xy_Pa"] / shear["stress_yy_Pa"]
+    return 100 * shear["cell_shear_xy"], ratio, -100 * shear["volumetric_strain"]
 
 
 if __name__ == "__main__":
-    main()
+    curves.plot_runs(__doc__, "shear strain [%]", ["shear stress / normal stress", "dilation [%]"], curve)

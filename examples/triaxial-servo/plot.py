@@ -13,18 +13,12 @@ import curves
 
 
 def shear_curves(run: str | Path) -> tuple:
-    """Axial strain [%], stress ratio and dilation [%] of a run's last stage."""
+    """Axial strain [%], stress ratio and dilation [%] of the last stage of a run."""
     shear = curves.last_stage(run)
     ratio = shear["deviator_Pa"] / shear["mean_stress_Pa"]
     return 100 * shear["strain_z"], ratio, -100 * shear["volumetric_strain"]
 
 
-def main() -> None:
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    lines = [(label, *shear_curves(run)) for run, label in curves.runs_and_labels(sys.argv[2:])]
-    curves.plot_over_one_axis(sys.argv[1], "axial strain [%]", ["stress ratio q/p", "dilation [%]"], lines)
-
-
 if __name__ == "__main__":
-    main()
+    names = ["stress ratio q/p", "dilation [%]"]
+    curves.plot_runs(__doc__, "axial strain [%]", names, lambda run, _label: shear_curves(run))

@@ -77,7 +77,7 @@ export function wallLines(walls: readonly Wall[], frame: Frame): Point[] {
         ]
       : [0, 0, 0];
   const standing = walls.map((wall, n) => ({ ...wall, point: moved(wall.point, shift(n), 1) }));
-  // Far from the grains a wall is not drawn; a wall behind the box of the grains keeps its place.
+  // Walls are cut a little outside the box of the grains; a wall behind this box keeps its place.
   const limits: { point: Point; normal: Point }[] = [];
   for (let axis = 0; axis < 3; ++axis) {
     const normal: Point = [0, 0, 0];
