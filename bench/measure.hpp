@@ -48,7 +48,7 @@ struct BenchResult {
 /// both must end in the same bits. Whole: both run stretch by stretch from the first step to rest.
 ///
 /// Times are the processor's, so that other programs count little; with several threads they are
-/// the clock's. `say` is told what goes on.
+/// the clock's. `say` prints the progress.
 [[nodiscard]] BenchResult measure(const Workload& work, const MeasureOptions& options,
                                   const std::function<void(const std::string&)>& say);
 

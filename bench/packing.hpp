@@ -20,8 +20,8 @@ struct GrainKind {
 };
 
 /// One shape per grain, each with memory of its own, as in a run on scanned grains. Only `distinct`
-/// forms are generated per kind and then copied: the machine cannot tell. All of it `copies` times,
-/// one after the other.
+/// forms are generated per kind and then copied, which makes no difference to the machine. All of
+/// it `copies` times, one after the other.
 [[nodiscard]] ShapeStore make_shapes(const std::vector<GrainKind>& kinds, std::uint32_t distinct,
                                      ShapeStorage storage, std::uint32_t copies = 1);
 

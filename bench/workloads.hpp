@@ -10,7 +10,7 @@
 
 namespace reckon::bench {
 
-/// What is asked of a workload.
+/// The requirements of a workload.
 struct WorkloadRequest {
   bool small{false};            ///< a few grains and steps, for tests
   std::uint32_t grains{0};      ///< 0: the workload's own
@@ -31,7 +31,7 @@ struct Workload {
   SimulationState state;
   Course course{Course::steady};
   std::uint64_t warm_up{1000};   ///< steps before the first measured
-  std::uint64_t steps{200};      ///< of one stretch; of a whole run: between looks whether it rests
+  std::uint64_t steps{200};      ///< of one stretch; of a whole run: between tests for rest
   std::uint64_t plain_steps{4};  ///< after each stretch
   int stretches{5};              ///< of a whole run: at most
   double rests_at{0};            ///< unbalanced ratio that ends a whole run; 0: never

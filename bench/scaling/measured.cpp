@@ -24,7 +24,7 @@ double sum(const Communicator& ranks, double value) {
 }
 
 /// Ghost update and reduction of a plain step alone, all ranks in step, in the fastest of many
-/// batches [s]: what they cost when nobody waits for another's work or another program.
+/// batches [s]: their cost when no rank waits for the work of another rank or for another program.
 double exchange_alone(const Simulation& simulation, const SimulationState& state, int batches) {
   constexpr int repeats = 50;
   const Communicator& ranks = simulation.distribution().ranks();

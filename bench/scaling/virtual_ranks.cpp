@@ -14,7 +14,7 @@
 namespace reckon::bench {
 namespace {
 
-/// A grain that a rank knows: the number in the assembly stands for id and shape.
+/// A grain that a rank holds: its number in the assembly is its id and shape.
 struct VirtualRank {
   std::vector<BorderGrain> known;  ///< owned grains, then ghosts
   std::size_t owned{0};
@@ -118,7 +118,7 @@ RankLoad load_of(int number, const VirtualRank& rank, const Assembly& assembly,
   return load;
 }
 
-/// Hands every grain to its owner, exchanges ghosts, lists pairs; writes the grains' costs.
+/// Gives every grain to its owner, exchanges ghosts, lists pairs; writes the costs of the grains.
 std::vector<RankLoad> count_loads(const Assembly& assembly, const Sharing& sharing, int ranks,
                                   std::vector<double>& costs) {
   std::vector<VirtualRank> virtual_ranks(static_cast<std::size_t>(ranks));

@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# A triaxial study in Python: the same dense sample is sheared with three friction coefficients between its grains.
-# Cells begin with `# %%`: run them one by one in an editor that knows them, or the whole file:
+# A triaxial study in Python: the same dense sample is sheared with three friction coefficients
+# between its grains. Cells begin with `# %%`: run them one by one in an editor that supports them,
+# or the whole file:
 #
 #   PYTHONPATH=build/release/python /usr/bin/python3 examples/friction-study/study.py [FOLDER]
 # %% Shapes and a scene to begin with
@@ -24,7 +25,7 @@ text = (here.parent / "triaxial-servo" / "scene.toml").read_text()
 scene = reckon.Scene.from_text(text, folder)
 print(f"{scene.title}: {scene.grain_count} grains")
 
-# %% Three runs; one that is there already goes on where it stopped
+# %% Three runs; an existing one continues where it stopped
 frictions = [0.2, 0.5, 0.8]
 runs = {}
 for friction in frictions:

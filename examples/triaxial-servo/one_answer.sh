@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 #   examples/triaxial-servo/one_answer.sh [RECKON [STEPS]]
-# Presses the test's sample until it is dense, and from there makes STEPS steps on one thread, and again with threads, ranks,
-# decompositions and lists that must not change a bit, and without the break. Says of each what `reckon diff` found.
-# docs/verification/determinism.md shows the table.
+# Presses the test's sample until it is dense, and from there makes STEPS steps on one thread, and
+# again with threads, ranks, decompositions and lists that must not change a bit, and without the
+# break. Prints for each what `reckon diff` found. docs/verification/determinism.md shows the table.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 reckon=$(realpath "${1:-build/release/apps/reckon/reckon}")

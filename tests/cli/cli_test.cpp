@@ -24,7 +24,7 @@ class CliTest : public testing::ProgramTest {
   }
 };
 
-/// Grains far too soft for their stress: every command says so before it says anything else.
+/// Grains far too soft for their stress: every command reports it before anything else.
 TEST_F(CliTest, FiguresThatMeanNothingAreAnnouncedFirst) {
   write("soft.toml", with(staged(), "2e9 N/m^3", "1e9 N/m^3"));
   const Outcome check = reckon({"check", "soft.toml", "--timing", "0"});
@@ -109,7 +109,7 @@ TEST_F(CliTest, ManualPageAndCompletionKnowEveryCommand) {
   EXPECT_EQ(completed("reckon wa", 1), "watch\n");
   EXPECT_EQ(completed("reckon grains gen", 2), "generate\n");
   EXPECT_EQ(completed("reckon run scene.toml --res", 3), "--resume\n");
-  EXPECT_EQ(completed("reckon report \"\"", 2), "\n");  // file names are bash's own business
+  EXPECT_EQ(completed("reckon report \"\"", 2), "\n");  // bash itself completes file names
 }
 
 /// HDF5 would crash at the end over a file that it could not close. A limit on the length of files
@@ -325,8 +325,8 @@ TEST_F(CliTest, AStateForParaViewCountsFromTheStartOfTheLastStage) {
   EXPECT_EQ(reckon({"paraview", "nothing.run"}).code, 1);
 }
 
-/// Whether a text is one JSON object with all its brackets closed, as far as a look at brackets and
-/// strings can tell.
+/// Whether a text is one JSON object with all its brackets closed, judged by its brackets and
+/// strings.
 bool looks_like_json(const std::string& text) {
   std::string open;
   bool in_string = false;
@@ -458,7 +458,7 @@ TEST_F(CliTest, LongWorkDrawsABarOnATerminal) {
     return std::string{" run long.toml --overwrite"};
   });
   EXPECT_NE(run.find(" steps/s"), std::string::npos) << run;
-  // The bar is wiped before the first line of the summary, whatever that says.
+  // The bar is wiped before the first line of the summary.
   EXPECT_TRUE(run.find(fmt::format("\r\033[Kcomplete at step {}", steps)) != std::string::npos ||
               run.find("\r\033[KTHE FIGURES") != std::string::npos)
       << run;

@@ -22,7 +22,7 @@ class StreamsTest : public testing::ProgramTest {
   }
   [[nodiscard]] Outcome shell(const std::string& line) const { return outcome_of(start(line)); }
   [[nodiscard]] std::string log() const { return read_file(RunFolder{root_ / "scene.run"}.log()); }
-  /// Says something after each few steps.
+  /// Prints something after every few steps.
   void write_scene_of_many_stages() const {
     std::string many;
     for (int i = 0; i < 40; ++i) many += fmt::format("[[stage]]\nname = \"s{}\"\nsteps = 2\n", i);

@@ -192,8 +192,8 @@ TEST(Engines, AgreeWithEveryMasterRuleAndLaw) {
   }
 }
 
-/// With a skin wider than the scene every pair is listed all the time: nobody can be missed. Narrow
-/// ones, of which each grain gets what its speed asks for, must end in the same bits.
+/// With a skin wider than the scene every pair is always listed, so none can be missed. Narrow
+/// skins, which depend on the speed of each grain, must end in the same bits.
 TEST(Engines, AgreeWhateverTheSkin) {
   for (const Scene& scene : {dynamic_drop(), unequal_sizes(), fast_spin()}) {
     SimulationSetup setup = scene.setup;
@@ -284,7 +284,7 @@ TEST(Engines, AgreeOnBandsAndWholeGrids) {
   }
 }
 
-/// The near engine alone, with a restart in the middle and looks in between, on some threads.
+/// Only the near engine, with a restart in the middle and measurements in between, on some threads.
 TEST(Engines, AgreeAcrossThreadsRestartsAndLooks) {
   const int before = thread_count();
   const auto reference = [](const Scene& scene, int steps) {

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 #   shapes_of_figures.sh RECKON
-# The figures in the examples' pages come from runs with one library of fifty grains. Where another version makes other
-# shapes of the same command, they are figures of the past, and this test says so.
+# The figures in the examples' pages come from runs with one library of fifty grains. Where another
+# version makes other shapes of the same command, the figures are outdated, and this test fails.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -14,7 +14,7 @@ struct FailingCall {
   const char* file{""};       ///< a part of the name of the file that it is about
   std::uint64_t number{0};    ///< which of the calls for such files fails, from 1 on; 0: none
   bool lasting{false};        ///< whether all later ones fail, too
-  bool half{false};           ///< writes do half of what they are asked for, instead of failing
+  bool half{false};           ///< writes store half of their data, instead of failing
 };
 
 /// From now on. Counts from 1 again.

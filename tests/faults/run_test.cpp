@@ -25,7 +25,7 @@ class FaultyDisk : public testing::ProgramTest {
                                    "fields_interval = 20\ncheckpoint_interval = 20\n"));
     ASSERT_EQ(reckon({"run", "scene.toml", "--quiet", "--out", "good.run"}).code, 0);
   }
-  /// The program with calls of the system that fail. It says on standard error whether one has.
+  /// The program with calls of the system that fail. It reports a failed call on standard error.
   [[nodiscard]] Outcome with_fault(const std::string& call, std::uint64_t number, bool lasting,
                                    const std::string& arguments) const {
     const std::string settings = "RECKON_FAIL_CALL=" + call + " RECKON_FAIL_FILE=scene.run" +

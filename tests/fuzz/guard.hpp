@@ -7,7 +7,7 @@
 
 namespace reckon::fuzz {
 
-/// While it lives, a crash, a sanitizer's verdict, or more than `seconds` of computing keep the
+/// While it exists, a crash, a report of a sanitizer, or more than `seconds` of computing keep the
 /// input that caused it, in the file `path`, before they end the program. One at a time.
 class Guard {
  public:

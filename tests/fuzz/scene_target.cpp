@@ -63,7 +63,7 @@ name = "tube"
 cylinder = { point = [0, 0, 0], axis = [0, 0, 1], radius = 0.5 }
 )";
 
-/// All faults must be told with text and a place; without faults the scene must survive writing and
+/// All faults must have a text and a place; without faults the scene must survive writing and
 /// reading to the last bit.
 void read(const std::string& input, const std::filesystem::path& folder) {
   const SceneReading reading = read_scene_text(input, folder);

@@ -8,7 +8,7 @@
 
 namespace reckon::fuzz {
 
-/// A folder of this process for readers that want files; removed in the end.
+/// A folder of this process for readers that need files; removed at the end.
 class ScratchFolder {
  public:
   ScratchFolder();

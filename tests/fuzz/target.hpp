@@ -14,7 +14,7 @@ namespace reckon::fuzz {
 /// A reader that must answer any input with success or with reckon::Error.
 struct Target {
   std::string name;
-  /// Inputs that it accepts, small and together using all that it knows.
+  /// Small inputs that it accepts, which together use all of its features.
   std::function<std::vector<std::string>()> valid_inputs;
   std::function<void(const std::string& input)> read;
   /// How inputs are damaged where bytes are not enough, e.g. below a checksum.

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 #   consumer.sh BUILD_DIR CMAKE COMPILER
-# Installs into an empty folder, and builds and runs a project that knows nothing but that folder.
+# Installs into an empty folder, and builds and runs a project that uses only that folder.
 set -euo pipefail
 build=$1 cmake=$2 compiler=$3
 here=$(cd "$(dirname "$0")" && pwd)

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 #   without_npm.sh SOURCE_DIR CMAKE
-# Where npm is missing, CMake says that the page of `reckon report` is left out, and configures the rest.
+# Where npm is missing, CMake prints that the page of `reckon report` is left out, and configures
+# the rest.
 set -euo pipefail
 source=$1 cmake=$2
 work=$(mktemp -d)

@@ -7,8 +7,8 @@
 // thrown down, shaken and sheared by moving walls; `pressed` closes the box and drives its walls by
 // stress and strain rate, in two stages; `bonded` cements the grains before the second; `membrane`
 // presses grains in a cylinder, and then takes it for a membrane; `cell` has no walls but a
-// periodic cell, pressed and then sheared. It is stopped half-way and goes on from its state, as a
-// restart does.
+// periodic cell, pressed and then sheared. It is stopped half-way and continues from its state, as
+// a restart does.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -69,7 +69,7 @@ TEST_F(MpiRun, LeavesTheFilesOfOneRank) {
     EXPECT_EQ(count(outcome.out, "complete at step 600"), 1U) << outcome.out;
     auto one = files_of(root_ / "one");
     auto several = files_of(root_ / decomposition);
-    // These two tell the decomposition.
+    // These two depend on the decomposition.
     for (const char* file : {"scene.toml", "scene_resolved.toml"}) {
       one.erase(file);
       several.erase(file);

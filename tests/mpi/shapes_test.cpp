@@ -51,7 +51,7 @@ void test(const Communicator& ranks) {
                      return large_shape(static_cast<float>(id.get()));
                    }};
   const std::int64_t before = private_bytes();
-  // Each rank needs other shapes; nobody needs the last.
+  // Each rank needs other shapes; no rank needs the last.
   const auto own = static_cast<std::uint32_t>(ranks.rank());
   std::vector<bool> needed(count, false);
   needed[own] = true;

@@ -255,4 +255,4 @@ class Pictures(unittest.TestCase):
 
 program = unittest.main(argv=["check_run"], verbosity=2, exit=False)
 sys.stderr.flush()
-os._exit(not program.result.wasSuccessful())  # ParaView's own way out trips over X now and then
+os._exit(not program.result.wasSuccessful())  # the exit of ParaView sometimes fails in X

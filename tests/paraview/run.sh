@@ -50,7 +50,8 @@ draw_on_new_screen() {
   return "$code"
 }
 
-# A signal's code tells of ParaView ended by its screen, not by what it was shown: then once more.
+# The code of a signal means that the screen ended ParaView, not the files that it opened: try once
+# more.
 for attempt in 1 2 3; do
   code=0
   draw_on_new_screen || code=$?

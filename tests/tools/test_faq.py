@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What docs/faq.md quotes as an error is what the program says."""
+"""The errors that docs/faq.md quotes are messages of the program."""
 import pathlib
 import re
 import unittest
@@ -9,7 +9,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
 
 def messages():
-    """All sources behind each other, texts that go on in the next line joined."""
+    """All sources in one text, with string literals over several lines joined."""
     files = [file for folder in ("src", "apps") for file in sorted((ROOT / folder).rglob("*.?pp"))]
     text = "\n".join(file.read_text(encoding="utf-8") for file in files)
     return re.sub(r'"\s*\n\s*"', "", text).replace('\\"', '"')

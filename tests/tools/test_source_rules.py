@@ -13,7 +13,7 @@ MODULES = ["core", "math", "parallel", "shape"]
 
 
 def complaints(rule, **files):
-    """What `rule` says about files given as folder__name_suffix="text"."""
+    """The complaints of `rule` about files given as folder__name_suffix="text"."""
     named = {key.replace("__", "/").replace("_hpp", ".hpp").replace("_cpp", ".cpp")
              .replace("_txt", ".txt").replace("_md", ".md"): text for key, text in files.items()}
     return list(rule(source_rules.Project(named, MODULES)))

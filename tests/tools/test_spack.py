@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Spack recipe against what CMake asks for. Spack itself is not needed."""
+"""The Spack recipe, compared with the requirements of CMake. Spack itself is not needed."""
 import contextlib
 import pathlib
 import re
@@ -21,7 +21,7 @@ FOR_DEVELOPERS = {"RECKON_WARNINGS_AS_ERRORS", "RECKON_FUZZERS"}
 
 
 class Recipe:
-    """The recipe read with stand-ins for Spack's directives, which write down what they are told."""
+    """The recipe read with stand-ins for Spack's directives, which record their arguments."""
 
     def __init__(self):
         self.variants, self.dependencies, self.versions = {}, {}, {}

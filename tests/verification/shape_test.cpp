@@ -93,7 +93,7 @@ struct GridErrors {
   double counted_volume{0};  // smoothed counting on the grid
   double counted_inertia{0};
   double plain_volume{0};    // plain counting on the grid
-  double contact_volume{0};  // inside the interpolated zero surface, which contact sees
+  double contact_volume{0};  // inside the interpolated zero surface, used by contacts
   double contact_area{0};
   double gradient{0};  // mean of | |gradient| - 1 | at the nodes
 };

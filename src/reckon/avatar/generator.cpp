@@ -54,7 +54,7 @@ void require_spread(const char* field, const Spread& spread, double low, double 
                    high));
 }
 
-/// What is drawn for one grain.
+/// The random variables of one grain.
 struct Form {
   double diameter;
   double elongation;

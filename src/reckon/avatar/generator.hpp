@@ -51,8 +51,8 @@ struct GrainStatistics {
 };
 
 /// Grain number `index` of a population: closed, star-shaped, free of self-intersections, in its
-/// principal frame. It depends on nothing but the arguments. Size, elongation and flatness of the
-/// mesh are exactly those drawn; roundness is that of the body before roughness is laid on.
+/// principal frame. It depends only on the arguments. Size, elongation and flatness of the mesh are
+/// exactly those drawn; roundness is that of the body before roughness is laid on.
 ///
 /// `frequency` divides the geodesic sphere that carries the surface (20 frequency^2 triangles) and
 /// must be at least highest_degree, so that no wavelength gets less than five edges.

@@ -8,7 +8,7 @@
 
 namespace reckon {
 
-/// What a geodesic sphere is divided from.
+/// The solid that a geodesic sphere is divided from.
 enum class GeodesicBase : std::uint8_t {
   icosahedron,  ///< 20 n^2 triangles of nearly equal size
   octahedron,   ///< 8 n^2 triangles, with edges along the coordinate planes

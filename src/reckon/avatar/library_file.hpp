@@ -15,9 +15,9 @@
 
 namespace reckon {
 
-/// A number that stands for all that the mechanics of a shape depends on (grid, nodes, mass, radius
-/// and Lipschitz constant; not name and descriptors). Shapes that act alike have equal digests on
-/// every machine, so a checkpoint can detect that its shapes have changed.
+/// A checksum of all data that the mechanics of a shape depends on (grid, nodes, mass, radius and
+/// Lipschitz constant; not name and descriptors). Shapes that act alike have equal digests on every
+/// machine, so a checkpoint can detect that its shapes have changed.
 [[nodiscard]] std::uint64_t shape_digest(const Shape& shape);
 
 /// Throws Error with `place` in front when a shape's parts do not fit together or a number is out

@@ -10,7 +10,7 @@
 
 namespace reckon::library_layout {
 
-// What a shape library's datasets are called; library_file.hpp has the picture.
+// The names of the datasets of a shape library; library_file.hpp has the picture.
 
 // 2 added sphere_radius, 3 bands, 4 provenance and sieve_size
 inline const Hdf5Kind library_kind{"shape library", 4};

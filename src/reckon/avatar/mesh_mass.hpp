@@ -7,7 +7,7 @@
 
 namespace reckon {
 
-/// What the solid inside a closed surface weighs, at unit density, in the mesh's own frame.
+/// Mass properties of the solid inside a closed surface, at unit density, in the frame of the mesh.
 struct SolidProperties {
   double volume{0};        ///< [m^3]; negative when the triangles face inward
   double surface_area{0};  ///< [m^2]

@@ -24,7 +24,7 @@ struct ShapeResolution {
 
 /// Turns a closed surface into a shape.
 ///
-/// What is stored, and how far its parts agree:
+/// The stored data, and how far its parts agree:
 /// - Body frame, volume and inertia are those of the polyhedron itself, exact to rounding. The grid
 ///   holds the polyhedron's exact signed distances at its vertices, rounded to float, so counting
 ///   on the grid (grid_properties) gives the same mass up to the discretisation error: O(h^2) at

@@ -21,7 +21,7 @@ struct OrientedPoints {
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };
 
-/// Points that each stand for an equal share of a surface: the triangles are lined up such that
+/// Points that each represent an equal share of a surface: the triangles are lined up such that
 /// neighbours in the line are neighbours on the surface, the line is cut into equal areas, and the
 /// place inside a triangle comes from the additive recurrence of Roberts' R2 sequence. No chance is
 /// involved. Keeps references.

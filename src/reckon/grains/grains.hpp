@@ -32,7 +32,7 @@ struct EnergyLedger {
   friend bool operator==(const EnergyLedger&, const EnergyLedger&) = default;
 };
 
-/// All that must be known of one grain to go on from here: what migrates, what a checkpoint holds.
+/// The whole state of one grain, as it migrates and as a checkpoint holds it.
 struct GrainState {
   GrainId id;
   ShapeId shape;
@@ -87,7 +87,7 @@ struct Grains {
   }
 };
 
-/// What a force does to one grain: summed contact by contact in a fixed order.
+/// Force and moment on one grain, summed contact by contact in a fixed order.
 struct Load {
   Vec3 force;   ///< world frame [N]
   Vec3 moment;  ///< about the centre of mass, world frame [N m]

@@ -73,7 +73,7 @@ struct Quaternion {
   return {q.w / length, q.x / length, q.y / length, q.z / length};
 }
 /// The matrix R with world = R * body, in its homogeneous form: a quaternion of norm s gives s^2 R.
-/// (Input files give quaternions with few digits; their first step takes them as they stand.)
+/// (Input files give quaternions with few digits; their first step uses them unchanged.)
 [[nodiscard]] constexpr Mat3 rotation_matrix(const Quaternion& q) {
   const double ww = q.w * q.w;
   const double xx = q.x * q.x;

@@ -80,7 +80,7 @@ void write_grain_surfaces(const std::filesystem::path& path, const FieldsAtStep&
                           std::span<const ShapeSummary> shapes, double density,
                           std::span<const TriangleMesh> surfaces);
 
-/// What a file of write_grain_surfaces takes, on disk and in memory.
+/// The size of a file of write_grain_surfaces, on disk and in memory.
 struct SurfaceSize {
   std::uint64_t triangles{0};
   std::uint64_t bytes{0};

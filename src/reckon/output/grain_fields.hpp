@@ -31,9 +31,9 @@ enum class FieldNumbers : std::uint8_t { real, count, flag };
 /// What carries a field in surfaces_*.vtp. In grains_*.vtp each grain's point carries all fields.
 enum class OnSurface : std::uint8_t { nothing, vertices, triangles };
 
-/// One field that is saved of each grain. An entry in the table of fields is all that there is to
-/// it: the ParaView files, their reference page, the state that `reckon paraview` writes and the
-/// list of colours of the report page are made from that table.
+/// One field that is saved of each grain. An entry in the table of fields is sufficient: the
+/// ParaView files, their reference page, the state that `reckon paraview` writes and the list of
+/// colours of the report page are made from that table.
 struct GrainField {
   std::string name;             ///< of the array, e.g. "angular_velocity"
   std::string unit;             ///< e.g. "rad/s"; empty for a pure number

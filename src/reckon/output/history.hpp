@@ -25,8 +25,8 @@ namespace reckon {
 [[nodiscard]] std::string history_reference_markdown(std::span<const QuantityGroup> groups);
 [[nodiscard]] std::string history_reference_markdown();
 
-/// history.csv of a run under way. Each row is handed to the system in one piece, so a killed run
-/// leaves whole rows.
+/// history.csv of a run in progress. Each row is written in one call, so a killed run leaves
+/// complete rows.
 class HistoryFile {
  public:
   /// Starts a new file, or continues the existing one: then rows for which `keep(step)` is false

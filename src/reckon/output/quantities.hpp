@@ -30,7 +30,7 @@ struct HistoryRow {
 /// Counts stay whole numbers.
 using Number = std::variant<std::uint64_t, double>;
 
-/// How a quantity is called.
+/// The name of a quantity.
 struct QuantityName {
   std::string name;                       ///< without its unit, e.g. "momentum"
   std::string unit;                       ///< e.g. "kg m/s"; empty for a pure number
@@ -42,9 +42,8 @@ struct QuantityName {
   [[nodiscard]] std::vector<std::string> columns() const;
 };
 
-/// One measured quantity. An entry in the table of quantities is all that there is to it: header
-/// and rows of history.csv, its reference page, the page of a report, Python and JSON are made
-/// from that table.
+/// One measured quantity. An entry in the table of quantities is sufficient: header and rows of
+/// history.csv, its reference page, the page of a report, Python and JSON are made from that table.
 struct HistoryQuantity : QuantityName {
   /// Its numbers, as many as it has columns.
   std::function<std::vector<Number>(const HistoryRow&)> numbers;

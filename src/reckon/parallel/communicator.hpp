@@ -43,7 +43,7 @@ class RepeatedExchange {
 /// order. Copies mean the same ranks.
 class Communicator {
  public:
-  /// One rank, alone. Works with and without MPI.
+  /// A single rank. Works with and without MPI.
   Communicator();
 
   [[nodiscard]] int rank() const;

@@ -53,7 +53,7 @@ struct Connection {
   std::string answer{};                   ///< what is still to be sent, from `sent` on
   std::size_t sent{0};
   bool last{false};     ///< close after this answer
-  bool closing{false};  ///< has its last answer; what it still sends is thrown away
+  bool closing{false};  ///< has its last answer; further requests are discarded
   bool gone{false};
 
   [[nodiscard]] bool is_sending() const { return sent < answer.size(); }
@@ -173,7 +173,7 @@ struct HttpServer::Impl {
     }
   }
 
-  /// Answers whole requests, one after the other, until an answer has to wait for its reader.
+  /// Answers complete requests, one after the other, until an answer has to wait for its reader.
   void answer_what_has_come(Connection& client) const {
     constexpr std::string_view ending = "\r\n\r\n";
     while (!client.is_sending() && !client.closing && !client.gone) {

@@ -132,7 +132,7 @@ struct PackedMeshes {
   }
 };
 
-/// What the page can colour grains by, besides what it computes itself.
+/// The quantities by which the page can colour grains, except those that it computes itself.
 void add_fields(JsonWriter& json) {
   json.begin_array("fields");
   for (const GrainField& field : grain_fields()) {

@@ -23,8 +23,8 @@ struct PageLimits {
 [[nodiscard]] std::vector<std::uint64_t> spread_steps(const std::vector<std::uint64_t>& steps,
                                                       std::size_t most);
 
-/// What a page shows of a run, taken from its folder as it is at each call. What is missing is left
-/// out, so a run under way can be shown.
+/// The data of a run for a page, read from its folder at each call. Missing data is left out, so a
+/// run in progress can be shown.
 class RunPieces {
  public:
   RunPieces(RunFolder folder, PageLimits limits);

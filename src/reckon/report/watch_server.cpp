@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* packed = "application/octet-stream";
 
-/// What the page may do in a browser: its own scripts, and requests to where it came from.
+/// The rights of the page in a browser: its own scripts, and requests to its server.
 constexpr const char* headers =
     "Cache-Control: no-store\r\n"
     "Content-Security-Policy: default-src 'none'; script-src 'unsafe-inline'; style-src "

@@ -19,8 +19,8 @@ struct AnalysisOptions {
   double bin_width{0.1};               ///< of the histogram of forces, over their mean; > 0
 };
 
-/// What the grains around each grain did since `from`, at one saved step.
-/// Its numbers are NaN where no grain has a strain.
+/// The motion of the grains around each grain since `from`, at one saved step. Its numbers are NaN
+/// where no grain has a strain.
 struct StrainSummary {
   std::uint64_t step{0};
   double shear{0};       ///< mean of all grains with a strain

@@ -46,7 +46,7 @@ std::string component_name(std::uint64_t width, std::uint64_t component) {
   return {};
 }
 
-/// What a row of a column stands for.
+/// The subject of a row of a column.
 std::string row_name(const std::string& column, std::uint64_t row, const SimulationState& state) {
   if (column.starts_with("/grain/")) return fmt::format("grain {}", state.grains[row].id.get());
   if (column.starts_with("/departed/")) {

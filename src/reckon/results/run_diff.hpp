@@ -21,7 +21,7 @@ struct Difference {
   std::optional<std::uint64_t> ulps;  ///< how many doubles lie between two finite numbers
 };
 
-/// What a comparison of two runs found.
+/// The result of a comparison of two runs.
 struct RunComparison {
   struct Part {
     std::string name;                      ///< "history", "checkpoint of step 300", "final state"

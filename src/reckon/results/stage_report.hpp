@@ -21,7 +21,7 @@ namespace reckon {
 /// Above this a stage counts as too fast for a quasi-static test (da Cruz et al. 2005).
 constexpr double quasi_static_inertial_number = 1e-3;
 
-/// What a stage that drives walls by strain rate or speed has shown.
+/// The results of a stage that drives walls by strain rate or speed.
 struct StageFinding {
   std::string stage;
   bool free_volume{false};  ///< some walls give way, so that dilatancy means something

@@ -18,7 +18,7 @@ using TIFF = struct tiff;
 namespace reckon {
 
 /// A TIFF file, opened by libtiff, which takes its pages as directories and their pixels as strips
-/// or tiles. What the library complains of becomes an Error.
+/// or tiles. A complaint of the library becomes an Error.
 class TiffFile {
  public:
   /// `mode` as libtiff has it; `shown` is the name for messages.

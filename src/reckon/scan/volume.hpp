@@ -45,7 +45,7 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// A scan, what was computed from it, or a part of either: one value per cubic voxel. Voxels have
+/// A scan, a result computed from it, or a part of either: one value per cubic voxel. Voxels have
 /// the same numbers in a part as in the whole. The world frame has its origin at the outer corner
 /// of voxel (0, 0, 0).
 template <class Value>

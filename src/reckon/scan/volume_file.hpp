@@ -24,7 +24,7 @@ enum class VoxelType : std::uint8_t { uint8, int8, uint16, int16, uint32, int32,
 [[nodiscard]] std::optional<VoxelType> voxel_type_named(std::string_view name);
 [[nodiscard]] std::size_t size_of(VoxelType type);
 
-/// What is to be read.
+/// A request for a volume.
 struct VolumeRequest {
   std::filesystem::path file;  ///< or a folder of TIFF slices
   double voxel{0};             ///< edge of a voxel [m]

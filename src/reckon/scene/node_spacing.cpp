@@ -67,7 +67,7 @@ struct Count {
 };
 
 /// The worst shape that is too coarse for itself, on a wall or where it meets one that is no finer.
-/// With nodes of both grains, that is where a pair is: what is larger is seen by the smaller one.
+/// With nodes of both grains: the nodes of the smaller grain find the larger one.
 Worst worst_alone(const std::vector<Grid>& grids, const std::vector<Count>& counts, bool walls,
                   double allowed) {
   const auto meets_coarse = [&](std::size_t shape) {

@@ -24,7 +24,7 @@ struct SceneKey {
   std::string_view meaning;
 };
 
-/// A word of a scene and the value it stands for.
+/// A word of a scene and its value.
 template <class Value>
 struct Choice {
   std::string_view word;

@@ -13,9 +13,9 @@
 
 namespace reckon {
 
-/// What can be wrong with where grains stand at the start: in the same pose twice, inside each
-/// other, or beyond a wall. Contacts would be silent about such grains or throw them out. Where the
-/// scene allows it (contact.allow_inside), these are warnings.
+/// Faults of the positions of grains at the start: in the same pose twice, inside each other, or
+/// beyond a wall. Contacts would be silent about such grains or throw them out. Where the scene
+/// allows it (contact.allow_inside), these are warnings.
 class StartCheck {
  public:
   /// Key, problem, fix.

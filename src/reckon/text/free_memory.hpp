@@ -7,8 +7,8 @@
 
 namespace reckon {
 
-/// What this process may still take: what the system has available, or its own limit [bytes]. The
-/// largest number where the system does not report it.
+/// The memory that this process may still allocate: that of the system, or its own limit [bytes].
+/// The largest number where the system does not report it.
 [[nodiscard]] std::uint64_t free_memory();
 
 /// Throws Error when `what` needs more memory than there is, before it is allocated.

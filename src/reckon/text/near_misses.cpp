@@ -66,7 +66,7 @@ std::size_t end_of_number(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// A line of TOML without its comment, and with blanks in place of what stands in quotation marks.
+/// A line of TOML without its comment, and with blanks in place of quoted text.
 struct Line {
   std::string bare;
   bool quotes_are_closed{true};

@@ -38,7 +38,7 @@ std::optional<std::string> nearest_name(std::string_view written,
   for (const std::string& name : names) {
     const std::size_t distance = edit_distance(written, name);
     const std::size_t limit = std::max<std::size_t>(2, std::max(written.size(), name.size()) / 3);
-    // A name of which nothing is left is no likeness.
+    // An empty rest is not similar to a name.
     if (distance > limit || distance >= name.size()) continue;
     if (!nearest || distance < least) {
       nearest = name;

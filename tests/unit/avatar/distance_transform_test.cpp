@@ -122,7 +122,7 @@ TEST(DistanceTransform, OfABandComputesWhatTheBandKeeps) {
   }
 }
 
-/// Cones of normals that tell nothing: triangles without area, and two sheets back to back.
+/// Cones of normals that exclude nothing: triangles without area, and two sheets back to back.
 TEST(ClosestTriangles, AreFoundBesideTrianglesThatTellNothing) {
   TriangleMesh mesh = test::stretched(test::cube(), {1, 0.8, 0.02});
   const auto corner = mesh.triangles.front();

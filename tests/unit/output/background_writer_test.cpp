@@ -46,7 +46,7 @@ TEST(BackgroundWriter, WhatAJobThrowsReachesTheCallerAndLaterJobsAreDropped) {
   go.set_value();
   EXPECT_THROW(writer.finish(), std::runtime_error);
   EXPECT_FALSE(later);
-  writer.submit([&] { later = true; });  // the failure has been told
+  writer.submit([&] { later = true; });  // the failure has been reported
   writer.finish();
   EXPECT_TRUE(later);
 }

@@ -143,7 +143,7 @@ TEST(RunVerdict, ARestThatWasAskedForAndNotReached) {
   fall.rows.back().measurement.carried_share = 0.002;
   EXPECT_EQ(fall.codes(), "not_at_rest ");
   EXPECT_EQ(fall.codes("running"), "") << "it may yet come to rest";
-  // Where rest was not asked for, a run in mid-fall is noted, and no reason.
+  // Where no rest was required, a run that ends in mid-fall gets a note and no reason.
   fall.scene.time.stop_at_unbalanced_ratio.reset();
   EXPECT_TRUE(fall.verdict().valid());
   EXPECT_NE(verdict_text(fall.verdict()).find("note: not at rest at step 4000"), std::string::npos);

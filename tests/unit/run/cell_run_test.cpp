@@ -91,7 +91,7 @@ TEST_F(CellRunTest, TellsOfStressStrainAndWork) {
   EXPECT_GT(at("wall_work_J", last), at("wall_work_J", pressed));
 }
 
-/// ParaView sees every grain in the cell, and contacts no longer than grains reach.
+/// ParaView files hold every grain inside the cell, and no contact longer than the reach of grains.
 TEST_F(CellRunTest, FieldsShowGrainsInTheCell) {
   (void)run(scene(), {.folder = root_ / "whole"});
   const double edge = column("cell_edge_z_m").back();
@@ -114,7 +114,7 @@ TEST_F(CellRunTest, FieldsShowGrainsInTheCell) {
   }
 }
 
-/// The box that is drawn is the one that the history tells of, and leads from images to own ways.
+/// The box that is drawn is that of the history, and cell_shift leads to unwrapped positions.
 TEST_F(CellRunTest, FieldsHaveTheCellAndTheGrainsOwnWays) {
   (void)run(scene(), {.folder = root_ / "whole"});
   const RunFolder folder{root_ / "whole"};

@@ -125,13 +125,13 @@ sample = true
   RunReport run_until(std::uint64_t step, const std::string& text, RunOptions options) const {
     std::uint64_t at = 0;
     RunHooks hooks;
-    // Asked before `progressed` tells of the same step.
+    // Called before `progressed` for the same step.
     hooks.stop_requested = [&] { return at + 1 >= step; };
     hooks.progressed = [&](const RunProgress& progress) { at = progress.step; };
     return run(text, std::move(options), hooks);
   }
 
-  /// All files of a run by name, but for those that tell when and how fast it ran.
+  /// All files of a run by name, except those that depend on date and speed.
   [[nodiscard]] static std::map<std::string, std::string> files_of(
       const std::filesystem::path& folder) {
     std::map<std::string, std::string> files;

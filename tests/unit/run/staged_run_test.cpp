@@ -124,7 +124,7 @@ TEST_F(StagedRunTest, AGoalNamesTheWallThatItMeans) {
   EXPECT_EQ(end_of(", wall = 'box.z'").second, driven);
 }
 
-/// A hundred times the inertia: steps ten times longer, weights as they are, and the run says so.
+/// A hundred times the inertia: steps ten times longer, unchanged weights, and the run prints it.
 TEST_F(StagedRunTest, DensityScalingKeepsWeightAndLengthensSteps) {
   const std::string plain = scene_text(usual);
   std::string scaled = plain;

@@ -18,7 +18,7 @@ const Vec3 first{14.3, 14.6, 14.2};
 const Vec3 direction{0.6, 0.48, 0.64};
 const Vec3 label_direction = normalized(direction + Vec3{0.35, -0.35, 0});  // 26 degrees
 
-/// The share of each voxel inside a ball, as well as a distance tells it.
+/// The share of each voxel inside a ball, approximated from its distance.
 GrayVolume ball(const Vec3& center) {
   GrayVolume share{VoxelDims{42, 40, 44}, 1};
   for_each_voxel(share.box(), [&](std::int32_t i, std::int32_t j, std::int32_t k) {

@@ -157,7 +157,7 @@ TEST_F(VolumeLayout, SpacingsMustFitTheGivenVoxel) {
   expect_fit("a.nrrd", nrrd("spacings: 3 3 3\nunits: \"um\" \"um\" \"um\"\n\n"), "spacings");
   expect_fit("a.mha", meta("ElementSpacing = 0.003 0.003 0.003\n"), "ElementSpacing");
   expect_fit("a.mha", meta("ElementSpacing = 3 3 3\nDistanceUnits = um\n"), "ElementSpacing");
-  // With its unit, a one is a length as any other; without, it says nothing.
+  // With a unit, 1 is a length like any other; without a unit it is unknown.
   write("a.nrrd", nrrd("spacings: 1 1 1\nunits: \"mm\" \"mm\" \"mm\"\n\n") + numbers());
   expect_error([&] { (void)values("a.nrrd"); }, {"spacings", "0.001 m in the file"});
   write("a.nrrd", nrrd("spacings: 1 1 1\n\n") + numbers());

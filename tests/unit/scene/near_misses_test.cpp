@@ -102,11 +102,11 @@ TEST(NearMisses, LinesThatAreNotToml) {
   EXPECT_EQ(advice_on_toml_line("title = “sand”"), "Write straight quotation marks, \" or '.");
   for (const char* line :
        {"", "#", "damping = = 2", "]", "[", "\"", "=", "\\", "'\\", "{", "- 3"}) {
-    (void)advice_on_toml_line(line);  // whatever it says, it ends
+    (void)advice_on_toml_line(line);  // it ends, with any result
   }
 }
 
-/// What `check` says of lines below a sound scene.
+/// The messages of `check` for lines below a valid scene.
 class NearMissesInScenes : public ::testing::Test {
  protected:
   void SetUp() override {

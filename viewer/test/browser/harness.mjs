@@ -81,7 +81,7 @@ export function launch() {
   });
 }
 
-/** Opens a page and keeps all that goes wrong in it, and all that it asks the network for. */
+/** Opens a page and records its errors and its network requests. */
 export async function open(browser, url, { width = 1280, height = 900 } = {}) {
   const page = await browser.newPage({ viewport: { width, height }, acceptDownloads: true });
   page.setDefaultTimeout(120000); // pictures without a graphics card take seconds
@@ -99,7 +99,7 @@ export async function open(browser, url, { width = 1280, height = 900 } = {}) {
   return { page, faults, requests };
 }
 
-/** Waits until the three-dimensional view has drawn what it was last told. */
+/** Waits until the three-dimensional view has drawn its last update. */
 export async function settled(page) {
   let before = "";
   for (let tries = 0; tries < 100; ++tries) {

@@ -274,7 +274,7 @@ test("a periodic cell is drawn as a box that shrinks and leans", async () => {
   await page.close();
 });
 
-/** Counts what a page asks of WebGL: draw calls, and bytes of buffers handed over. */
+/** Counts the requests of a page to WebGL: draw calls, and bytes of buffers. */
 function countWork() {
   const work = { draws: 0, uploads: 0 };
   window.webglWork = work;
