@@ -10,7 +10,7 @@
 namespace reckon::python {
 namespace {
 
-/// What grains under way and saved ones share.
+/// Common columns of current and saved grains.
 template <class Grains>
 py::dict poses_of(const Grains& grains) {
   py::dict table;

@@ -8,7 +8,7 @@ class App;
 
 namespace reckon::app {
 
-/// reckon bench: what a step costs on this machine, beside the plain algorithm.
+/// reckon bench: the cost of a step on this machine, compared with the plain algorithm.
 void add_bench_command(CLI::App& app);
 
 }  // namespace reckon::app

@@ -42,7 +42,7 @@ std::vector<std::string> choices_of(const std::string& type) {
   return choices;
 }
 
-/// What a user calls that which CLI11 calls INT and so on; a form of its own, like LX,LY,LZ, stays.
+/// The user's word for the types INT and so on of CLI11; a special form, like LX,LY,LZ, stays.
 std::string value_name(const std::string& type, bool is_choice) {
   if (is_choice) return "NAME";
   const std::string name = type.substr(0, type.find(':'));
@@ -154,7 +154,7 @@ std::string in_table(std::string_view text) {
   return cell;
 }
 
-/// Text for groff: what it would take as its own is escaped.
+/// Text for groff: its control characters are escaped.
 std::string roff(std::string_view text) {
   std::string out;
   bool line_start = true;

@@ -30,7 +30,7 @@ constexpr Dimension length_dimension{.mass = 0, .length = 1, .time = 0, .angle =
                .fix = std::move(fix)}};
 }
 
-/// A quantity; what is wrong with it is said of the option.
+/// A quantity; its fault is reported for the option.
 Quantity parse_of_option(const std::string& option, std::string_view text) {
   try {
     return parse_quantity(text);

@@ -11,7 +11,7 @@ class ParseError;
 
 namespace reckon::app {
 
-// What is wrong with a command line, and what to write instead. `root` is the whole program.
+// Faults of a command line, and what to write instead. `root` is the whole program.
 
 /// Checks numbers before CLI11 does: no option takes NaN or a negative count, and what is nearly a
 /// number is refused with the number to write.

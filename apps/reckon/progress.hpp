@@ -44,7 +44,7 @@ class ProgressDisplay {
 };
 
 /// Shows how many of a known number are done, how fast, and the time left: a bar on standard error
-/// where that is a terminal, nothing elsewhere. It goes away at the end.
+/// where that is a terminal, nothing elsewhere. It is removed at the end.
 class CountDisplay {
  public:
   /// `what` is counted, e.g. "grains".

@@ -127,7 +127,7 @@ void print_json(const RunReport& report, const SceneConfig& scene,
 }
 
 /// Threads of each rank where the user has not chosen: an even share of the machine's processors,
-/// within what the launcher lets this rank use.
+/// within the processors that the launcher gives this rank.
 int default_thread_count(const Communicator& ranks) {
   const long processors = ::sysconf(_SC_NPROCESSORS_ONLN);
   const int share = static_cast<int>(processors) / ranks.machine().size();

@@ -30,7 +30,7 @@ void open_missing_streams() {
 
 void say(std::string_view text) {
   std::fflush(stdout);
-  while (!text.empty()) {  // not through stdout, which would keep what it cannot write
+  while (!text.empty()) {  // not through stdout, which would buffer what it cannot write
     const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
     if (written <= 0) return;
     text.remove_prefix(static_cast<std::size_t>(written));

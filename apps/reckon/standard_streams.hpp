@@ -14,8 +14,8 @@ void open_missing_streams();
 /// disk is full): a run is worth more than its log.
 void say(std::string_view text);
 
-/// Prints what is left for standard output. Returns `code`, or that of a failed run where a command
-/// succeeded but its answer could not be written. A reader that closes early is no failure.
+/// Prints the remaining output. Returns `code`, or that of a failed run where a command succeeded
+/// but its answer could not be written. A reader that closes early is no failure.
 [[nodiscard]] int end_output(int code);
 
 }  // namespace reckon::app

@@ -8,7 +8,7 @@
 namespace reckon::app {
 namespace {
 
-// A signal handler can reach nothing but a global of this type.
+// A signal handler can use only a global of this type.
 volatile std::sig_atomic_t received = 0;
 
 extern "C" void note_stop_signal(int signal) { received = signal; }

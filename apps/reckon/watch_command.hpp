@@ -8,7 +8,7 @@ class App;
 
 namespace reckon::app {
 
-/// reckon watch: shows a run under way in a browser.
+/// reckon watch: shows a run in progress in a browser.
 void add_watch_command(CLI::App& app);
 
 }  // namespace reckon::app

@@ -35,7 +35,7 @@ double longest_edge_of(const Tetrahedron& cell, std::span<const Vec3> points) {
 std::vector<LocalStrain> local_strain(std::span<const Vec3> before, std::span<const Vec3> after,
                                       double longest_edge) {
   constexpr double sliver = 1e-3;
-  constexpr double flat = 1e-12;  // squared stretch of what has collapsed
+  constexpr double flat = 1e-12;  // squared stretch of a collapsed tetrahedron
   std::vector<LocalStrain> strains(before.size());
   for (const Tetrahedron& cell : delaunay(before)) {
     const Mat3 start = edges(cell, before);

@@ -15,7 +15,7 @@
 namespace reckon {
 namespace {
 
-/// What is summed over all ranks.
+/// The sums over all ranks.
 struct Sums {
   ExactMat3 pairs, wall_branches, on_walls;  // force (x) length [N m]
   ExactMat3 normals, branches;
@@ -74,7 +74,7 @@ void add_normals(const Simulation& simulation, Sums& sums) {
     for (const NodeSpring& spring : springs.springs) {
       normal += spring.master_is_b ? -spring.normal : spring.normal;
     }
-    if (normal == Vec3{}) continue;  // held by its bond alone
+    if (normal == Vec3{}) continue;  // held only by its bond
     ++sums.with_normal;
     sums.normals.add(outer(normalized(normal), normalized(normal)));
   }

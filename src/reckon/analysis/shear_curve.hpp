@@ -14,7 +14,7 @@ struct ShearPoint {
   double friction_angle{0};     ///< mobilised [deg]
 };
 
-/// What a shear test is made for.
+/// The results of a shear test.
 struct ShearSummary {
   double peak_friction_angle{0};  ///< [deg]
   double strain_at_peak{0};

@@ -21,7 +21,7 @@ struct Watched {
   std::vector<CellControl> parts;
 };
 
-/// What the goal names, or else what the stage moves by strain rate or speed.
+/// The planes of the goal, or otherwise those that the stage moves by strain rate or speed.
 Watched watched_by(const StageGoal& goal, const Simulation& simulation) {
   Watched watched;
   const StageSetup& stage = *simulation.stage();
@@ -50,7 +50,7 @@ double strain_of(const CellControl& control, const CellState& state,
   return shear[static_cast<int>(control.axis) - static_cast<int>(CellAxis::xy)];
 }
 
-/// The largest of what is watched, or of an axis if nothing is.
+/// The largest of the watched values, or of an axis if there are none.
 double strain_since_start(const Watched& watched, const Simulation& simulation,
                           const SampleMeasurement& sample) {
   if (watched.parts.empty() && watched.planes.empty()) {

@@ -6,7 +6,7 @@
 
 namespace reckon {
 
-/// What a stress comes down to for a geotechnical engineer. Compression is positive.
+/// The invariants of a stress used in geotechnics. Compression is positive.
 struct StressInvariants {
   double mean{0};            ///< p, a third of the trace [Pa]
   double deviator{0};        ///< q = sqrt(3 J2): sigma_1 - sigma_3 where two are equal [Pa]

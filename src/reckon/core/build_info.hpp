@@ -6,7 +6,7 @@
 
 namespace reckon {
 
-/// Which program this is: what a result must name to be traced back.
+/// The identity of this program, which a result must record to be traceable.
 struct BuildInfo {
   std::string_view version;
   std::string_view revision;  ///< of the source tree; ends in "-dirty" when it had changes

@@ -21,7 +21,7 @@ bool is_out_of_memory(const std::exception& failure) {
                                 system->code() == std::errc::resource_unavailable_try_again));
 }
 
-/// As an Error, where a file is the matter; nothing else is thrown.
+/// Throws an Error where a file is the cause; nothing else is thrown.
 void throw_as_error(const std::filesystem::filesystem_error& failure) {
   throw_write_failure(failure.path1(), failure.code().value());
 }

@@ -19,7 +19,7 @@
 namespace reckon {
 namespace {
 
-/// Distinct for every file that this process has under way.
+/// Distinct for every file that this process is writing.
 std::filesystem::path temporary_name(const std::filesystem::path& target) {
   static std::atomic<std::uint64_t> next{0};
   return target.string() + "." + std::to_string(getpid()) + "-" + std::to_string(next++) + ".tmp";

@@ -10,7 +10,7 @@
 #include "reckon/core/hdf5_file.hpp"
 #include "reckon/core/hdf5_handle.hpp"
 
-/// What the writer and the reader of sealed HDF5 files share. Handles are std::int64_t, as in
+/// Common parts of the writer and the reader of sealed HDF5 files. Handles are std::int64_t, as in
 /// hdf5_handle.hpp.
 namespace reckon {
 

@@ -14,7 +14,7 @@
 
 namespace reckon {
 
-/// What was handed to the HDF5 library to be written, as hashes. The library can lose it: it holds
+/// Hashes of the data that the HDF5 library was given to write. The library can lose it: it holds
 /// small datasets back in buffers, and a write that fails while it closes one is not always
 /// reported. A file is therefore read back before it is sealed.
 class Hdf5Record {

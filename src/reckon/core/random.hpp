@@ -9,7 +9,7 @@ namespace reckon {
 
 /// Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as
 /// easy as 1, 2, 3"). The same key and counter give the same four words on every rank, thread and
-/// machine, in any order of asking; nothing is stored between calls.
+/// machine, in any order of calls; nothing is stored between calls.
 [[nodiscard]] constexpr std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                                             std::array<std::uint32_t, 2> key) {
   constexpr std::uint64_t multiplier_0 = 0xD2511F53;
@@ -33,7 +33,7 @@ namespace reckon {
   return static_cast<double>(bits) * 0x1.0p-53;
 }
 
-/// What a random number is for. Streams of different purposes never share a number.
+/// The purpose of a random number. Streams of different purposes never share a number.
 enum class RandomPurpose : std::uint32_t {
   body_force = 1,
   placement = 2,

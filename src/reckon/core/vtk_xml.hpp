@@ -87,7 +87,7 @@ struct VtkCells {
 /// 1, separate lines with 2.
 [[nodiscard]] VtkCells consecutive_cells(std::size_t count, std::size_t points_per_cell);
 
-/// What a .vtp file holds. Cell data covers vertices, then lines, then polygons.
+/// The content of a .vtp file. Cell data covers vertices, then lines, then polygons.
 struct VtkPolyData {
   VtkArray points;  ///< three components
   VtkCells vertices;

@@ -25,7 +25,7 @@ class Decomposition {
  public:
   virtual ~Decomposition() = default;
 
-  /// Collective, when lists are made anew: draws the regions again where grains have left them.
+  /// Collective, when lists are rebuilt: computes the regions again where grains have left them.
   /// `positions` and `costs` are those of the owned grains; `reach` is the largest distance of two
   /// centres that may touch before the next lists [m]. Space repeats itself along axes where
   /// `period` is above zero; positions are then between zero and that [m].

@@ -36,8 +36,8 @@ struct Region {
 /// when they come from a bisection.
 [[nodiscard]] int region_holding(std::span<const Region> regions, const Vec3& p, int guess);
 
-/// Equal blocks of a Cartesian grid (paper, section 2.2), each made of whole bins. Blocks at the
-/// outside reach to infinity, so nothing can leave the domain (paper, section 3.4).
+/// Equal blocks of a Cartesian grid (paper, section 2.2), each made of whole bins. Outer blocks
+/// extend to infinity, so no grain can leave the domain (paper, section 3.4).
 struct GridCut {
   std::array<int, 3> blocks{1, 1, 1};  ///< along x, y, z; their product is at most the ranks given
   std::array<int, 3> bins{1, 1, 1};    ///< bins of the whole domain along x, y, z

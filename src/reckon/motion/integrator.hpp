@@ -19,7 +19,7 @@ struct Inertia {
   Vec3 moments;    ///< principal moments, body frame [kg m^2]
 };
 
-/// The velocities of a grain as they stand, with the increment of the last step.
+/// The current velocities of a grain, with the increment of the last step.
 [[nodiscard]] inline Kick velocities_of(const Grains& grains, std::size_t slot) {
   return {grains.velocity[slot], grains.angular_velocity_body[slot],
           grains.angular_increment_body[slot]};

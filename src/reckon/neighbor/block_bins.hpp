@@ -19,8 +19,8 @@ namespace reckon {
 ///   grain_list[g]       the next grain in the bin of grain g
 ///   belongs_to_rank[g]  whether g lives inside the block or is a ghost in the padding
 ///
-/// Where the paper writes -1, `nothing` stands here. A grain that its rank does not know is not in
-/// the lists at all, instead of being marked as belonging elsewhere.
+/// The -1 of the paper is `nothing` here. A grain that is not on the rank is not in the lists at
+/// all, instead of being marked as belonging elsewhere.
 class BlockBins {
  public:
   enum class Residence : std::uint8_t { inside, ghost };

@@ -8,7 +8,7 @@
 
 namespace reckon {
 
-/// How far each grain and wall may move before pairs must be listed anew. Two grains are listed
+/// How far each grain and wall may move before pairs must be listed again. Two grains are listed
 /// when their spheres come within the sum of both budgets, so no unlisted pair can touch before one
 /// of its grains has used its budget:
 ///

@@ -13,7 +13,7 @@
 
 namespace reckon {
 
-/// Two grains that might touch before the list is made anew.
+/// Two grains that might touch before the next list.
 struct Pair {
   GrainId id_a;          ///< the lower id
   GrainId id_b;          ///< the higher id
@@ -44,8 +44,8 @@ struct Pair {
                                                    std::size_t owned, const PeriodicCell& cell);
 
 /// Visits, one by one and without listing them, the slots of pairs whose bounding spheres meet,
-/// until `visit` returns false: memory follows the grains however many stand in one place. With a
-/// cell, between nearest images, and a pair may come more than once.
+/// until `visit` returns false: memory is proportional to the grains, for any number in one place.
+/// With a cell, between nearest images, and a pair may come more than once.
 void visit_pairs(std::span<const Vec3> positions, std::span<const double> radii,
                  const PeriodicCell* cell,
                  const std::function<bool(std::uint32_t, std::uint32_t)>& visit);

@@ -259,7 +259,7 @@ class Session {
     return rests;
   }
 
-  /// A sample that has lost a grain is no sample any more. What it has come to is written first.
+  /// A sample that has lost a grain is no longer valid. Its state is written first.
   void require_grains_in_membrane() {
     const std::optional<GrainOutside> lost = simulation_.grain_outside_membrane();
     if (!lost) return;
@@ -409,7 +409,7 @@ class Session {
   Simulation simulation_;
   OutputSchedule schedule_;
   Persistence persistence_;
-  HeldCondition goal_;       // of the run, or of the stage under way
+  HeldCondition goal_;       // of the run, or of the current stage
   bool goal_is_met_{false};  // of the stage, as of the last look
   bool resumed_;
   RunProgress progress_;

@@ -39,7 +39,7 @@ struct RunProgress {
   double kinetic_energy{0};    ///< likewise [J]
 };
 
-/// What the caller does meanwhile. All may be empty.
+/// Calls to the caller during a run. All may be empty.
 struct RunHooks {
   std::function<bool()> stop_requested;                ///< called after every step
   std::function<void(const RunProgress&)> progressed;  ///< called after every step
@@ -77,7 +77,7 @@ class RunFailure : public Error {
 /// in one go or is interrupted and resumed, history, fields and checkpoints end up the same to the
 /// last bit. Throws Error before the first step for a folder or checkpoint that does not fit, and
 /// RunFailure after it, on all ranks. Collective; `reading` and `scene`, which is sound and loaded,
-/// count on the root only, which alone writes files.
+/// are used only on the root, which writes all files.
 RunReport run_scene(const SceneReading& reading, const LoadedScene& scene,
                     const RunOptions& options, const RunHooks& hooks,
                     const Communicator& ranks = {});

@@ -13,7 +13,7 @@
 namespace reckon {
 namespace {
 
-/// What a run without a break would have written by the time it is at `resumed_at`.
+/// The rows that an uninterrupted run would have written at `resumed_at`.
 std::function<bool(std::uint64_t)> rows_to_keep(const OutputSchedule& schedule,
                                                 std::optional<std::uint64_t> resumed_at) {
   if (!resumed_at) return {};

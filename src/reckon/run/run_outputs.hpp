@@ -17,7 +17,7 @@
 
 namespace reckon {
 
-/// The tables and pictures of a run under way. When a run is resumed at a step, what lies behind
+/// The tables and pictures of a run in progress. When a run is resumed at a step, what lies behind
 /// that step, and what only the end of the earlier session had written, is removed first: so the
 /// files become those of a run without a break.
 class RunOutputs {

@@ -28,7 +28,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// A dense assembly: what the estimates of memory and output assume of contacts.
+// A dense assembly, assumed in the estimates of memory and output.
 constexpr std::uint64_t pairs_per_grain = 3;
 constexpr std::uint64_t listed_per_grain = 10;
 constexpr std::uint64_t nodes_per_pair = 10;

@@ -13,7 +13,7 @@
 
 namespace reckon {
 
-/// What a run will do, as far as can be said before it.
+/// The plan of a run, as far as it is known before it.
 struct RunPlan {
   std::uint64_t grains{0};
   std::uint64_t shapes{0};  ///< in the library
@@ -27,7 +27,7 @@ struct RunPlan {
 
   std::optional<std::string> coarse_nodes;  ///< see scene/node_spacing.hpp
 
-  std::uint64_t membrane_nodes{0};  ///< as its mould stands at the start
+  std::uint64_t membrane_nodes{0};  ///< for its mould at the start
   std::optional<Vec3> cell_size;    ///< of a periodic cell [m]
   std::string cell_axes;            ///< along which it is periodic, e.g. "xyz"
   double cell_solid_fraction{0};    ///< volume of grains over that of the cell

@@ -46,7 +46,7 @@ RunStart ready_folder(const RunFolder& folder, const RunOptions& options, Checkp
     std::optional<Checkpoint> found = latest_checkpoint(folder, note);
     if (found) {
       require_same_run(*found, first, place);
-      found->scene = std::move(first.scene);  // what is free to change may have changed
+      found->scene = std::move(first.scene);  // settings that may differ may have changed
       return {std::move(*found), true};
     }
     if (has_checkpoints) {

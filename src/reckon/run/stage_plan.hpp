@@ -11,7 +11,7 @@
 
 namespace reckon {
 
-/// What a stage will do, as far as can be said before the run.
+/// The plan of a stage, as far as it is known before the run.
 struct StagePlan {
   std::string name;
   std::uint64_t most_steps{0};

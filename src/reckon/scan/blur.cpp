@@ -13,7 +13,7 @@
 namespace reckon {
 namespace {
 
-/// Weighs numbers: each with those that stand at multiples of `step` before and after it.
+/// Weighted sums of each number and those at multiples of `step` before and after it.
 void weigh(const float* middle, std::size_t count, std::size_t step,
            const std::vector<float>& weights, float* out) {
   for (std::size_t i = 0; i < count; ++i) out[i] = weights[0] * middle[i];
@@ -25,8 +25,7 @@ void weigh(const float* middle, std::size_t count, std::size_t step,
   }
 }
 
-/// Filters `width` lines that lie side by side: their numbers stand in rows, `stride` apart.
-/// `padded` is scratch.
+/// Filters `width` adjacent lines: their numbers are in rows, `stride` apart. `padded` is scratch.
 void blur_lines(float* values, std::size_t width, std::size_t length, std::size_t stride,
                 const std::vector<float>& weights, std::vector<float>& padded) {
   const std::size_t reach = weights.size() - 1;

@@ -189,9 +189,9 @@ class Quantiles {
   std::vector<std::vector<std::uint32_t>> counts_;
 };
 
-/// What a container adds to the gray: by line for walls, by layer for floors.
+/// The gray that a container adds: by line for walls, by layer for floors.
 struct Container {
-  Flags gone;               // lines of walls and of what lies outside a closed one
+  Flags gone;               // lines of walls and of the outside of a closed one
   Map<float> added;         // to the gray of lines beside walls
   std::vector<bool> floor;  // by layer
   std::vector<float> floor_added;
@@ -218,8 +218,7 @@ Quantiles values_near(const Specimen& specimen, const Flags& walls, const RoughL
   return values;
 }
 
-/// Drops patches that do not stand out from what lies beside them, as the bright side of a shaded
-/// scan.
+/// Drops patches that do not differ from their surroundings, as the bright side of a shaded scan.
 void drop_shading(Flags& walls, const Quantiles& values, double step) {
   for (const Patch& patch : patches_of(walls, 1)) {
     Flags own{{walls.nx, walls.ny, 1}, 0};
@@ -244,7 +243,7 @@ void drop_shading(Flags& walls, const Quantiles& values, double step) {
   }
 }
 
-/// Walls and what they add beside them. Half of a wall's own gray is its surface.
+/// Walls and the gray that they add beside them. Half of a wall's own gray is its surface.
 void measure_walls(const Flags& walls, const Quantiles& values, const RoughLevels& levels,
                    Container& container) {
   const Flags zone = widened(walls, blur_beside);

@@ -26,7 +26,7 @@ class ByteFile {
 
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
-  /// What was never written reads as zeros.
+  /// Parts that were never written are read as zeros.
   void resize(std::uint64_t size);
   [[nodiscard]] std::uint64_t size() const;
   /// Its name; a scratch file's folder.
@@ -49,7 +49,7 @@ class DiskVolume {
       : DiskVolume{ByteFile::scratch(folder), 0, dims, voxel} {
     file_->resize(Box{dims}.voxels() * sizeof(Value));
   }
-  /// What a file holds from `offset` on.
+  /// The content of a file from `offset` on.
   DiskVolume(std::shared_ptr<ByteFile> file, std::uint64_t offset, const VoxelDims& dims,
              double voxel)
       : file_{std::move(file)}, offset_{offset}, dims_{dims}, voxel_{voxel} {}
@@ -75,8 +75,8 @@ class DiskVolume {
   }
 
  private:
-  /// Calls move(place in the file, values in memory) for each run of voxels that hangs together in
-  /// both: whole layers where it can be, or else lines.
+  /// Calls move(place in the file, values in memory) for each run of voxels that is contiguous in
+  /// both: whole layers where possible, otherwise lines.
   template <class Held, class Move>
   void for_each_run(const Box& part, Held& held, Move&& move) const {
     const Volume<char> whole{Box{{0, 0, 0}, {dims_[0], dims_[1], 0}}, voxel_};

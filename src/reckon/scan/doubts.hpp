@@ -37,7 +37,8 @@ struct Doubt {
 [[nodiscard]] std::vector<std::string> check_doubts(const std::vector<Doubt>& splits,
                                                     std::size_t grains);
 
-/// What a packing can hardly be, in sentences that name a likely cause. Empty when nothing is odd.
+/// Implausible properties of a packing, in sentences with a likely cause. Empty when there are
+/// none.
 [[nodiscard]] std::vector<std::string> check_packing(const ScannedAssembly& assembly,
                                                      const std::vector<LabelledGrain>& grains,
                                                      const GrainChoice& choice,

@@ -21,7 +21,7 @@ namespace {
 
 const Hdf5Kind stage_kind{"scan stage", 3};
 
-/// What a stage's result depends on: the input's values and all settings up to it.
+/// The inputs of a stage: the values of the volume and all settings up to it.
 using Key = std::uint64_t;
 
 Key key_after(Key before, const std::string& settings) {
@@ -67,7 +67,7 @@ std::optional<DiskVolume<Value>> recall(const std::filesystem::path& file, Key k
                              reader.place<Value>("/values", raw.box().voxels()), raw.dims(),
                              raw.voxel()};
   } catch (const Error&) {
-    return std::nullopt;  // damaged: made anew
+    return std::nullopt;  // damaged: made again
   }
 }
 
@@ -225,7 +225,7 @@ class Segmenter {
     key_ = key_after(key_, fmt::format("specimen {}", hash.digest()));
   }
 
-  /// Grains that what lies outside cuts off: bright to the very edge over a part of their
+  /// Grains that are cut off by the outside: bright to the very edge over a part of their
   /// cross-section. One that merely touches it has its own blurred surface there, and stays.
   void mark_cut_grains() {
     if (scan_.outer.empty()) return;

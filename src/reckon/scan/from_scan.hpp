@@ -67,7 +67,7 @@ struct Segmentation {
 [[nodiscard]] const char* name_of(ScanStage stage);
 
 /// Pictures of slice `k` across z: the gray values; with the surface of the mask; with the grains
-/// in colours. What is not there yet gets no picture.
+/// in colours. Stages that are not done yet get no picture.
 void write_slices(const Segmentation& scan, std::int32_t k, const std::filesystem::path& folder);
 
 /// A picture of a place across z, enlarged: the grains in colours, with a cross at the voxel.

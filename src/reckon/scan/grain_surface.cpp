@@ -90,7 +90,7 @@ Piece cut_out(const SegmentedScan& scan, std::uint32_t label, const LabelledGrai
   return piece;
 }
 
-/// Adds `factor` times what a smoothing by one voxel takes away.
+/// Adds `factor` times the part that a smoothing by one voxel removes.
 void sharpen(GrayVolume& share, double factor) {
   if (!(factor > 0)) return;
   GrayVolume smoother = share;

@@ -53,7 +53,7 @@ struct GrainSurface {
                                          const LabelledGrain& grain, double smoothing,
                                          double sharpening);
 
-/// The part of a mesh that hangs together and encloses the most.
+/// The connected part of a mesh with the largest volume.
 [[nodiscard]] TriangleMesh largest_component(TriangleMesh mesh);
 
 }  // namespace reckon

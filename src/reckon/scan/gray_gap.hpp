@@ -12,7 +12,7 @@
 
 namespace reckon {
 
-/// Gray values along lines that cross a grain's surface where nothing else is near.
+/// Gray values along lines that cross the surface of a grain far from other grains.
 class EdgeProfile {
  public:
   /// Adds the solid shares on the line through a point of the surface, along its outward normal.

@@ -17,9 +17,9 @@ namespace reckon {
 /// twice where there is no further one.
 [[nodiscard]] double mean_gradient(const GrayOnDisk& gray, const Workspace& work);
 
-/// Mean gray values of what lies deep inside void and solid, or of all of a phase where there is
-/// too little of that. `solid_of` gives the solid voxels of a part. Throws Error when one phase is
-/// missing; `threshold` is used only in its text.
+/// Mean gray values deep inside void and solid, or of all of a phase where there is too little of
+/// that. `solid_of` gives the solid voxels of a part. Throws Error when one phase is missing;
+/// `threshold` is used only in its text.
 [[nodiscard]] GrayLevels phase_levels(const GrayOnDisk& gray,
                                       const std::function<MaskVolume(const GrayVolume&)>& solid_of,
                                       double threshold, const Workspace& work);

@@ -11,7 +11,7 @@
 #include "reckon/scan/volume_formats.hpp"
 #include "reckon/text/text_reader.hpp"
 
-/// What the readers of the text headers of MetaImage and NRRD share.
+/// Common parts of the readers of the text headers of MetaImage and NRRD.
 namespace reckon {
 
 struct NamedType {

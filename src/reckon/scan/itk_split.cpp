@@ -71,7 +71,7 @@ LabelVolume split_at_necks(const GrayVolume& depth, double least_rise) {
     numbered->SetInput(&seeds);
     numbered->FullyConnectedOn();
     numbered->Update();
-    // Void gets a seed of its own, so that no flood wanders through it.
+    // Void gets its own seed, so that no flood passes through it.
     Labels& markers = *numbered->GetOutput();
     const auto void_label = static_cast<std::uint32_t>(numbered->GetObjectCount() + 1);
     auto floor = to_image<Level>(levels);

@@ -11,7 +11,7 @@
 namespace reckon {
 namespace {
 
-/// Numbers voxels so that equal numbers hang together within what was seen, layer after layer.
+/// Numbers voxels, layer after layer, so that equal numbers are connected within the layers so far.
 class PieceFinder {
  public:
   /// The next layers; `numbers` gets provisional numbers, which root() makes final.

@@ -10,12 +10,12 @@
 
 namespace reckon {
 
-/// Labels that were given, cut into pieces that hang together.
+/// Given labels, divided into connected pieces.
 struct LabelPieces {
   LabelsOnDisk labels;               ///< consecutive from 1, in the order of their first voxels
   std::vector<std::uint32_t> given;  ///< by piece - 1: its label as it was given
 };
-/// Voxels of one label hang together through faces. The result does not depend on the slabs that
+/// Voxels of one label are connected through faces. The result does not depend on the slabs that
 /// are read at a time.
 [[nodiscard]] LabelPieces find_label_pieces(const LabelsOnDisk& given, const Workspace& work);
 

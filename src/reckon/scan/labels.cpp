@@ -14,7 +14,7 @@
 namespace reckon {
 namespace {
 
-/// Disjoint sets of labels; the lowest label stands for its set.
+/// Disjoint sets of labels; the lowest label represents its set.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) {
@@ -43,7 +43,7 @@ struct Pass {
   VoxelDims place;
 };
 
-// What lies less deep is darkened by the surface's own blur.
+// Shallower voxels are darkened by the blur of the surface.
 constexpr float gray_depth = 2;   // of the voxels that give the gray of a face [voxels]
 constexpr float solid_depth = 3;  // of the voxels that give the solid of a piece
 constexpr std::uint64_t fewest_in_neck = 4;

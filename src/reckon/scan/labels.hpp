@@ -38,7 +38,7 @@ struct Waist {
   VoxelDims voxel{};       ///< the deepest in the neck
 };
 
-/// Which pieces hang together.
+/// The pieces that were joined.
 struct JoinedPieces {
   std::vector<std::uint32_t> label;  ///< by piece: the lowest number of those joined to it
   std::uint32_t joined{0};           ///< pieces that were joined to others
@@ -103,7 +103,7 @@ struct LabelledGrain {
   std::uint32_t piece{1};  ///< which of that label's pieces, by falling size
 };
 
-/// What a grain with this label is called: by the label that was given, if one was.
+/// The name of a grain with this label: from the given label, if there is one.
 [[nodiscard]] std::string name_of(const LabelledGrain& grain, std::uint32_t label);
 
 /// All grains; the one with label n is at n - 1.

@@ -287,7 +287,7 @@ Shading measure(const Specimen& specimen, const Workspace& work) {
     gains.push_back({place, levels.step()});
   });
   const Fit first = fit_of(voids, cells.half_cell());
-  // Cells of void alone: their middle is near what the others have it to be.
+  // Cells with only void: their middle is near that of the others.
   cells.for_each([&](const auto& place, const RoughLevels& levels, double) {
     if (levels.step() >= 0.5 * typical) return;
     const double middle = 0.5 * (levels.void_gray + levels.solid_gray);

@@ -86,7 +86,7 @@ class Inflater {
   bool ended_{false};
 };
 
-/// Layers are unpacked one after the other; going back means starting anew.
+/// Layers are unpacked one after the other; to go back, unpacking starts again.
 class PackedVolume : public ByteLayers {
  public:
   PackedVolume(std::shared_ptr<const ByteFile> file, const VolumeHeader& header)

@@ -67,7 +67,7 @@ std::vector<double> smoothed(const std::vector<double>& counts) {
   return smooth;
 }
 
-/// Local maxima that stand out from the valleys on their way to any higher one.
+/// Local maxima that rise above the valleys on the way to any higher one.
 std::vector<std::size_t> peaks_of(const std::vector<double>& heights) {
   const double highest = *std::max_element(heights.begin(), heights.end());
   const auto valley = [&](std::size_t peak, int step) {

@@ -80,7 +80,7 @@ AvatarQuality judge(const Shape& shape, const GrainSurface& surface, const Trian
   return quality;
 }
 
-/// The gray values where the grain has nothing but void before it.
+/// The gray values where only void is in front of the grain.
 EdgeProfile free_edge(const SegmentedScan& scan, const Avatar& avatar) {
   constexpr std::size_t lines_per_grain = 500;
   constexpr int looks_per_voxel = 2;

@@ -18,7 +18,7 @@
 
 namespace reckon {
 
-/// How well an avatar stands for its scanned grain.
+/// The quality of an avatar of a scanned grain.
 struct AvatarQuality {
   std::uint32_t label{0};
   std::uint32_t given_label{0};  ///< LabelledGrain::given

@@ -22,7 +22,7 @@ namespace {
 constexpr double some_share = 0.1;      // that counts as a part of a grain
 constexpr double distinct_axes = 0.05;  // relative difference of moments
 
-/// Which avatar stands for which true grain.
+/// The avatar of each true grain.
 struct Matching {
   std::map<std::uint32_t, std::uint32_t> avatar_of;  // true grain -> place of its avatar
   std::map<std::uint32_t, std::uint32_t> most_in;    // avatar -> true grain that it has most of

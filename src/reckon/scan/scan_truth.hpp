@@ -10,7 +10,7 @@
 
 namespace reckon {
 
-/// What a simulated scan was made of.
+/// The truth of a simulated scan.
 struct ScanTruth {
   ShapeLibrary shapes;
   std::vector<GrainState> grains;  ///< shape by place in `shapes`, in the volume's world frame

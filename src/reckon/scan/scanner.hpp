@@ -73,8 +73,8 @@ struct ScannedBody;
 /// Artefacts: minerals, cracks, tube and floor come before the point spread function; cupping,
 /// shading, rings and the circle behind it.
 ///
-/// The volume holds all grains and a margin. Any part of it can be scanned alone, with the bits of
-/// the whole.
+/// The volume holds all grains and a margin. Any part of it can be scanned separately, with the
+/// same bits as in the whole.
 class Scanner {
  public:
   /// Throws Error when there are no grains or the volume would have more than 2^31 voxels.
@@ -105,7 +105,7 @@ class Scanner {
   double floor_top_{0};    // [voxels]
 };
 
-/// All of a scan, and what is known of it.
+/// A complete scan and its truth.
 struct SimulatedScan {
   GrayVolume gray;
   LabelVolume labels;

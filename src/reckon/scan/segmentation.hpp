@@ -41,7 +41,7 @@ struct GrayLevels {
   double solid_gray{0};
   double blur{0.95};  ///< deviation of an edge's, once denoised: usual for scans [voxels]
 
-  /// The solid share that a gray value stands for.
+  /// The solid share of a gray value.
   [[nodiscard]] double share(double gray) const {
     return (gray - void_gray) / (solid_gray - void_gray);
   }

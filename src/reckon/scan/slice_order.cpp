@@ -26,7 +26,7 @@ struct Number {
   std::int64_t value{0};
 };
 
-/// A name, cut into numbers and what stands between them: one text more than numbers.
+/// A name, divided into numbers and the texts between them: one text more than numbers.
 struct Name {
   std::filesystem::path file;
   std::vector<std::string> texts;

@@ -44,7 +44,7 @@ std::optional<float> gray_of_edges(const GrayOnDisk& raw, const Workspace& work)
   return most->first;
 }
 
-/// Voxels of one gray that hang together with the volume's upright edges: 1, all others 0.
+/// Voxels of one gray that are connected to the vertical edges of the volume: 1, all others 0.
 MaskOnDisk connected_to_edges(const GrayOnDisk& raw, float gray, const Workspace& work) {
   LabelsOnDisk same{raw.dims(), raw.voxel(), work.folder};
   for (const Box& slab : work.slabs(raw.dims())) {
@@ -129,7 +129,7 @@ double surfaces_at_outside(const GrayOnDisk& raw, const MaskOnDisk& outside, dou
   return surfaces == 0 ? 0 : static_cast<double>(at_outside) / static_cast<double>(surfaces);
 }
 
-/// What was given as the specimen.
+/// The given specimen.
 MaskOnDisk given_inside(const GrayOnDisk& raw, const SpecimenSettings& settings,
                         const Workspace& work) {
   const auto reader = open_volume({settings.mask, raw.voxel(), {}});
@@ -195,7 +195,7 @@ bool is_mixed(const GrayOnDisk& raw, const MaskOnDisk& inside, float outside_gra
          noticeable * std::abs(outside_gray - levels.void_gray);
 }
 
-/// What lies outside gets the gray of void.
+/// Voxels outside get the gray of void.
 GrayOnDisk with_void_outside(const GrayOnDisk& gray, const MaskOnDisk& inside, double void_gray,
                              const Workspace& work) {
   GrayOnDisk result{gray.dims(), gray.voxel(), work.folder};

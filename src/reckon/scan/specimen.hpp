@@ -19,7 +19,7 @@ struct SpecimenSettings {
 
 /// What of a volume is the specimen, and its gray values with the rest made void.
 struct Specimen {
-  MaskOnDisk outer;   ///< 1: within what was scanned, or the mask that was given; empty: all
+  MaskOnDisk outer;   ///< 1: within the scanned region, or the given mask; empty: all
   MaskOnDisk inside;  ///< 1: likewise, and no container; empty: all
   GrayOnDisk gray;
   std::vector<std::string> remarks;
@@ -27,8 +27,9 @@ struct Specimen {
 
 /// Cleans a scan for what follows, which expects grains in void of one gray.
 ///
-/// 1. What lies outside is left out: a mask that is given, or voxels of one constant gray that fill
-///    the volume's upright edges and hang together with them (outside a circle of reconstruction).
+/// 1. Voxels outside are excluded: by a given mask, or voxels of one constant gray that fill
+///    the vertical edges of the volume and are connected to them (outside a circle of
+///    reconstruction).
 /// 2. Walls and floors are found as lines of voxels across the volume, or layers of it, that are
 ///    bright nearly all along, as no packing of grains is. They become void; what they add to the
 ///    gray of voxels beside them is subtracted.

@@ -134,7 +134,7 @@ SplitGrains split_grains(const MaskOnDisk& mask, const SplitSettings& settings,
                          const GrayOnDisk* gray, const GrayLevels& levels, const Workspace& work) {
   const std::vector<Block> blocks = work.blocks(mask.dims(), work.grain_overlap());
   const Pieces pieces = find_pieces(mask, settings.least_rise, blocks, work.folder);
-  // Pieces are numbered anew, so that nothing that follows depends on the blocks.
+  // Pieces are renumbered, so that later stages do not depend on the blocks.
   Renumbering numbering;
   NeckJoiner joiner;
   for (const Box& slab : work.slabs(mask.dims())) {

@@ -21,7 +21,7 @@ struct TiffDescription {
   std::optional<double> y_edge;
   std::string unit;  ///< as the file has it; empty: not said
 };
-/// Never fails: what it does not understand is not there.
+/// Never fails: unknown content is ignored.
 [[nodiscard]] TiffDescription parse_tiff_description(std::string_view text);
 
 }  // namespace reckon

@@ -179,7 +179,7 @@ TiffFrame describe_frame(const TiffFile& file) {
                               said.per_axis[0], said.per_axis[1], said.per_axis[2]),
                   "Save one channel and one frame alone.");
   }
-  // Picture programs write dots per inch that mean nothing for a scan.
+  // The dots per inch of picture programs have no meaning for a scan.
   const auto edge = [&](std::uint32_t tag) {
     const auto resolution = field<float>(file, tag);
     return resolution > 0 ? 1.0 / static_cast<double>(resolution) : 1.0;

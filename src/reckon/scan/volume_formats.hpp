@@ -34,7 +34,7 @@ namespace reckon {
 void check_dims(const std::array<std::int64_t, 3>& dims, std::uint64_t most,
                 const std::string& place);
 
-/// What a file's name ends in, in small letters: ".tif".
+/// The extension of a file name, in small letters: ".tif".
 [[nodiscard]] std::string ending_of(const std::filesystem::path& file);
 
 /// The content of the header of a file, or of its substitute. Heads of MetaImage and NRRD are read
@@ -115,7 +115,7 @@ void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::st
 /// Throws MachineFailure with the system's last word.
 [[noreturn]] void refuse_unwritten(const std::filesystem::path& file);
 
-/// What was handed to a library that writes volumes, to be compared with what it has written: such
+/// The data passed to a library that writes volumes, for a comparison with the written file: such
 /// libraries do not report every failure.
 class LayerRecord {
  public:

@@ -13,7 +13,7 @@
 namespace reckon {
 namespace {
 
-/// What stands behind a key of a NumPy header, up to the next comma outside brackets.
+/// The value of a key of a NumPy header, up to the next comma outside brackets.
 std::string_view value_after(std::string_view header, std::string_view key,
                              const std::string& place) {
   const std::size_t found = header.find(key);

@@ -38,7 +38,7 @@ const TypeName& entry_of(VoxelType type) {
                        [&](const TypeName& entry) { return entry.type == type; });
 }
 
-/// Calls action(Number{}) with the C++ type that `type` stands for.
+/// Calls action(Number{}) with the C++ type for `type`.
 template <class Action>
 void with_number(VoxelType type, Action&& action) {
   switch (type) {

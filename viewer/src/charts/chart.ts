@@ -73,7 +73,7 @@ export class Chart {
     this.applyRanges();
   }
 
-  /** Where the three-dimensional view stands. */
+  /** The place of the three-dimensional view. */
   setMarker(x: number | null): void {
     this.marker = x;
     this.plot?.redraw(false, false);

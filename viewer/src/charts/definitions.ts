@@ -162,7 +162,7 @@ export function chartOfColumn(name: string): ChartDefinition {
   return { id: "any", title: label.replaceAll("_", " "), unit, curves: [plain(label, name)] };
 }
 
-/** What can stand on the horizontal axis. */
+/** The choices for the horizontal axis. */
 export interface Abscissa {
   id: string;
   label: string;

@@ -55,7 +55,7 @@ export class ChartSection {
     else this.draw();
   }
 
-  /** Where the three-dimensional view stands: in the first run at this step. */
+  /** The place of the three-dimensional view: in the first run at this step. */
   mark(step: number): void {
     const history = this.runs[0].history;
     if (!history.has("step") || history.rows === 0) return;

@@ -60,7 +60,7 @@ export interface Range {
   high: number;
 }
 
-/** From the least to the largest finite number of `values(line)`; null where there is none. */
+/** Min and max of the finite numbers of `values(line)`; null where there is none. */
 export function extent(
   lines: readonly Line[],
   within: Range | null,
@@ -81,7 +81,7 @@ export function extent(
   return low <= high ? { low, high } : null;
 }
 
-/** Room around what is drawn, and zero where it belongs. */
+/** A margin around the curves, and zero where it belongs. */
 export function padded(range: Range | null, fromZero: boolean): Range {
   if (!range) return { low: 0, high: 1 };
   let { low, high } = range;

@@ -106,7 +106,7 @@ function parsed<T>(text: string): T | null {
   try {
     return text ? (JSON.parse(text) as T) : null;
   } catch {
-    return null; // a file of a run under way, or of a program yet to come
+    return null; // a file of a run in progress, or of a later version
   }
 }
 

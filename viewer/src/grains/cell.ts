@@ -20,7 +20,7 @@ export function cellLines(frame: Frame): number[] {
   return lines;
 }
 
-/** The periodic cell of a frame. Dashed: there is nothing that grains could touch. */
+/** The periodic cell of a frame. Dashed, because it is not a wall. */
 export class CellView {
   readonly lines = new LineSegments(new BufferGeometry(), new LineDashedMaterial({ color: 0x1f5f8b }));
 

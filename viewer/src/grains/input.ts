@@ -23,9 +23,9 @@ export function listenToPointer(canvas: HTMLCanvasElement, clicked: (place: Vect
 }
 
 export interface KeyEvents {
-  moved(): void; // the camera stands elsewhere
-  picked(): void; // what is in the middle is wanted
-  released(): void; // nothing is wanted any more
+  moved(): void; // the camera has moved
+  picked(): void; // the grain in the middle is picked
+  released(): void; // no grain is picked any more
 }
 
 /** Arrows turn around `target`, plus and minus come closer or go back, Enter picks, Escape lets go. */

@@ -94,7 +94,7 @@ const computed: readonly Quantity[] = [
   },
 ];
 
-/** What a run can be coloured by: what is computed here, and its saved fields. */
+/** The quantities that can colour a run: those computed here, and its saved fields. */
 export function quantitiesOf(fields: readonly FieldText[]): Quantity[] {
   return [...computed, ...fields.map(savedQuantity)];
 }

@@ -14,7 +14,7 @@ import { Detail } from "./pace.ts";
 import { type Merged, merged } from "./merged.ts";
 import type { SurfaceOf } from "./pick.ts";
 
-/** Each point is painted as the ball that it stands for would look. */
+/** Each point is drawn like the ball that it replaces. */
 const ballShader = {
   vertexShader: `
     attribute float radius;
@@ -88,7 +88,7 @@ export class StandIns {
     this.balls.material.uniforms.pixels.value = height / 2 / Math.tan((view * Math.PI) / 360);
   }
 
-  /** Shows what stands for this detail; `colours` has three numbers per row. */
+  /** Shows the substitute for this detail; `colours` has three numbers per row. */
   show(detail: Detail, frame: Frame | null, surfaceOf: SurfaceOf, colours: Float32Array): void {
     this.coarse.visible = detail === Detail.coarse;
     this.balls.visible = detail >= Detail.balls;

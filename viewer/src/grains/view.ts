@@ -47,14 +47,14 @@ export interface Slice {
   axis: Axis;
   /** From 0 to 1 across the box of the grains. */
   place: number;
-  /** What is cut away is in front for the oblique look; flipped, what is behind. */
+  /** The part in front of the plane is cut away for the oblique view; flipped, the part behind it. */
   flipped: boolean;
 }
 
 const pickedColour = 0xd81b60;
 const settleTime = 250; // [ms] after the last move until the fine ones come back
 
-/** What draws on a canvas that nothing shines through: software would mix every pixel with the page behind. */
+/** A renderer with an opaque canvas: software would blend every pixel with the page behind. */
 function opaqueContext(canvas: HTMLCanvasElement): WebGL2RenderingContext {
   const context = canvas.getContext("webgl2", { alpha: false, antialias: true, powerPreference: "high-performance" });
   if (!context) throw new Error("no WebGL 2");
@@ -106,7 +106,7 @@ export class GrainView {
   private selected = -1;
   private pending = false;
   private busy = false; // the graphics card is at work
-  private outdated = false; // and what it draws has changed meanwhile
+  private outdated = false; // and the content has changed meanwhile
   private held = false; // the pointer is down
   private detail = Detail.fine;
   private readonly pace = new Pace();
