@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the plots of the examples share: reading history.csv and files of fields, and plots below each other."""
+"""Common parts of the plots of the examples: reading history.csv and files of fields, plots below each other."""
 import csv
 import json
 import re
@@ -36,7 +36,7 @@ def last_stage(run: str | Path) -> Columns:
 
 
 def answer(run: Path) -> dict:
-    """What `reckon run --json` said of a run: RUN.json beside it."""
+    """The output of `reckon run --json`: RUN.json beside the run."""
     return json.loads(run.with_suffix(".json").read_text(encoding="utf-8"))
 
 

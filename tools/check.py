@@ -26,7 +26,7 @@ SHOWN_LINES = 60  # of a failed stage's log
 
 @dataclasses.dataclass
 class Outcome:
-    """What a stage showed."""
+    """The result of a stage."""
 
     passed: int
     failed: int
@@ -87,7 +87,7 @@ def scripts(log):
 
 
 def lone_headers(log):
-    """Headers without a source of their own compile by themselves; the others come first in it."""
+    """Headers without a source compile alone; the others are the first include of their source."""
     toolkit = [f"-isystem{folder}" for folder in pathlib.Path("/usr/include").glob("ITK-*")]
     compiler = ["mpicxx", "-std=c++20", "-fopenmp", "-Isrc", *toolkit, "-fsyntax-only", "-x", "c++",
                 "/dev/null", "-include"]
@@ -106,7 +106,7 @@ def build(preset, *targets):
 
 
 def tests(preset, *selection, environment=None):
-    """A stage that runs the tests of a built preset; `selection` is handed to ctest."""
+    """A stage that runs the tests of a built preset; `selection` is passed to ctest."""
     def stage(log):
         report = log.with_suffix(".xml")
         report.unlink(missing_ok=True)
@@ -119,7 +119,7 @@ def tests(preset, *selection, environment=None):
 
 
 def count_tests(report, outcome):
-    """Replaces the command's one verdict by the counts and failures of a JUnit report."""
+    """Replaces the single result of the command by the counts and failures of a JUnit report."""
     outcome.passed = outcome.skipped = failed = 0
     details = []
     for case in xml.etree.ElementTree.parse(report).getroot().iter("testcase"):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs clang-tidy over every source of a build folder, skipping what it already found clean.
+"""Runs clang-tidy over every source of a build folder, skipping sources without findings that are unchanged.
 
     tools/clang_tidy.py BUILD_FOLDER
 
@@ -24,7 +24,7 @@ CACHE = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / "
 
 
 def headers_by_object(build):
-    """What each object was built from, by Ninja's records."""
+    """The sources of each object, from the records of Ninja."""
     lines = subprocess.run(["ninja", "-C", build, "-t", "deps"], check=True, capture_output=True,
                            text=True).stdout.splitlines()
     headers, current = collections.defaultdict(list), None
@@ -37,7 +37,7 @@ def headers_by_object(build):
 
 
 class Fingerprints:
-    """Hashes that stand for everything a source's result depends on."""
+    """Hashes of everything that the result of a source depends on."""
 
     def __init__(self, build):
         self.build = build
@@ -50,7 +50,7 @@ class Fingerprints:
         self.common = common
 
     def of_file(self, path):
-        """Project files by content; system headers by date, since packages replace them whole."""
+        """Project files by content; system headers by date, since packages replace them as a whole."""
         if path not in self.known:
             full = (self.build / path).resolve()
             if full.is_relative_to(ROOT):

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The commands in the Markdown pages: what a reader would type, in the order of each page.
+"""The commands in the Markdown pages: as a reader types them, in the order of each page.
 
 A block ```sh is run by the tests (tests/documents), all blocks of a page in one shell; so is a page's Python, the
-blocks ```python of a page being one program. Comments in the source of a page say what readers need not see:
+blocks ```python of a page being one program. Comments in the source of a page hold what readers do not need:
 
     <!-- not run: REASON -->             before a block: the tests leave it out
     <!-- small: OLD -> NEW -->           in the tests, NEW stands for OLD in all blocks of the page
@@ -14,8 +14,9 @@ blocks ```python of a page being one program. Comments in the source of a page s
     COMMANDS
     -->
 
-`--pages` lists the pages that have commands to run. Run as a program without it, it checks that no command escapes: commands stand in blocks ```sh, what is not run says why, and
-every `reckon COMMAND --option` in a page is one that docs/reference/commands.md lists.
+`--pages` lists the pages that have commands to run. Run as a program without it, it checks that no command escapes the tests:
+commands stand in blocks ```sh, blocks that are not run have a reason, and every `reckon COMMAND --option` in a page is one that
+docs/reference/commands.md lists.
 """
 import dataclasses
 import pathlib
@@ -101,7 +102,7 @@ def known_options(reference):
 
 
 def unknown_names(command_line, known):
-    """What a line of commands asks of reckon that it does not have."""
+    """The commands and options in a line that reckon does not have."""
     command_line = re.sub(r"(^|\s)#.*", "", command_line)
     for call in re.findall(r"(?:(?:^|[|;&(]\s*)\S*/|^|\s)reckon ((?:[^|;&`>()\n]|\\\n)*)", command_line, re.MULTILINE):
         words = call.replace("\\\n", " ").split()

@@ -57,7 +57,8 @@ fi
 # One query for all: it fails for names unknown to dpkg, but it still lists the others.
 installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null |
   sed -n 's/^installed //p' || true)
-# Node.js often comes from elsewhere, npm along with it, and Debian's would be in its way.
+# Node.js with npm often comes from another source, and the packages of Debian would conflict with
+# it.
 command -v node >/dev/null && command -v npm >/dev/null && installed+=$'\nnodejs\nnpm'
 missing=()
 for package in "${wanted[@]}"; do

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots what `reckon grains statistics -o` wrote: cumulative curves, one SVG beside each CSV file.
+"""Plots the tables of `reckon grains statistics -o`: cumulative curves, one SVG beside each CSV file.
 
   tools/plot_statistics.py sand.csv more.csv      several files share one picture with --together
 """

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks what no compiler checks: the module order and the habits of the sources.
+"""Checks what no compiler checks: the module order and the conventions of the sources.
 
 Each rule is a function from a Project to complaints "file:line: text". Run without arguments to
 apply all of them to the repository; exits 1 when any rule complains.
@@ -104,7 +104,7 @@ def includes_follow_module_order(project):
 
 
 def targets_follow_module_order(project):
-    """What CMake links obeys the same order, so that the link graph is the include graph."""
+    """CMake links in the same order, so the link graph is the include graph."""
     rank = {name: place for place, name in enumerate(project.modules)}
     for module in project.modules:
         path = f"src/reckon/{module}/CMakeLists.txt"
@@ -136,7 +136,7 @@ def includes_have_no_cycle(project):
 
 
 def includes_name_full_paths(project):
-    """Quoted includes are the project's own, by full path; src/ knows no ../ and no local names."""
+    """Quoted includes are the project's own, by full path; src/ uses no ../ and no local names."""
     for path, text in project.sources("src/"):
         for number, match in matches(text, r'^\s*#\s*include\s+"([^"]+)"'):
             if not match.group(1).startswith("reckon/"):
@@ -144,7 +144,7 @@ def includes_name_full_paths(project):
 
 
 def own_header_comes_first(project):
-    """A source includes its own header first, which proves that the header stands alone."""
+    """A source includes its own header first, which proves that the header compiles alone."""
     for path, text in project.sources("src/reckon/"):
         header = path[:-len(".cpp")] + ".hpp"
         if not path.endswith(".cpp") or header not in project.files:
@@ -156,7 +156,7 @@ def own_header_comes_first(project):
 
 
 def headers_guard_themselves(project):
-    """Every header says #pragma once."""
+    """Every header has #pragma once."""
     for path, text in project.sources():
         if path.endswith(".hpp") and "#pragma once" not in text.split("#include")[0]:
             yield f"{path}:1: '#pragma once' is missing"
@@ -167,14 +167,15 @@ def libraries_stay_silent(project):
     prints = r"\bstd::(?:cout|cerr|clog)\b|\bfmt::print\b|(?<!\w)(?:std::)?(?:f?printf|f?puts|putchar)\s*\("
     ends = r"(?<!\w)(?:std::)?(?:abort|exit|_exit|_Exit|quick_exit|terminate)\s*\("
     for path, text in project.sources("src/"):
-        # Only the communicator may end a process: all ranks together, when one of them cannot go on.
+        # Only the communicator may end a process: all ranks together, when one of them cannot
+        # continue.
         communicator = path.startswith("src/reckon/parallel/communicator")
         for number, match in matches(without_comments(text), prints if communicator else f"{prints}|{ends}"):
             yield f"{path}:{number}: a library may not use '{match.group().rstrip('( ')}'"
 
 
 def mpi_stays_in_its_modules(project):
-    """MPI is called in parallel/ and domain/ alone."""
+    """MPI is called only in parallel/ and domain/."""
     for path, text in project.sources("src/"):
         if module_of(path) in MPI_MODULES:
             continue
@@ -214,7 +215,7 @@ def texts_stand_alone(project):
 
 
 def files_stay_short(project):
-    """A source over LONGEST_FILE lines wants a reason, or to be split."""
+    """A source over LONGEST_FILE lines needs a reason, or must be split."""
     for path, text in sorted(project.files.items()):
         length = text.count("\n")
         if path.endswith(CPP_SUFFIXES + (".py", ".ts")) and length > LONGEST_FILE:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots the vertical stress over the depth in silos, beside Janssen's law and the weight of what lies above.
+"""Plots the vertical stress over the depth in silos, with Janssen's law and the weight above.
 
 usage: plot.py WIDTH PICTURE RUN=WALL_FRICTION...
 WIDTH of the square silo [m]. Means over the files of fields/ from the last quarter of a run. The vertical stress at a

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 #   examples/triaxial-servo/independence.sh [RECKON]
-# What the test's answer must not depend on: the rate of strain, once it is low, and the number of
+# The result of the test must not depend on the rate of strain, once it is low, and on the number of
 # nodes on a grain. Runs the test at four rates and with three numbers of nodes below
 # build/examples/independence, and plots both where Python has matplotlib.
 # docs/verification/assemblies.md has the results.

@@ -18,7 +18,7 @@ cd "$work"
 [[ -s sand.h5 ]] || "$reckon" grains generate --count 50 --seed 7 --d50 1mm -o sand.h5
 "$reckon" run scene.toml --out pressed --threads 1 --steps "$pressed" --overwrite --quiet
 
-# go_on NAME [SCENE LINES]: goes on from there in a copy, by what stands in $launch and $threads.
+# go_on NAME [SCENE LINES]: continues from there in a copy, with $launch and $threads.
 go_on() {
   rm -rf "$1"
   cp -r pressed "$1"

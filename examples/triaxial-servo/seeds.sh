@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 #   examples/triaxial-servo/seeds.sh [RECKON]
-# How far one sample's answer is from another's: the test with eight seeds, which fill the box
-# otherwise with the same shapes, and with the spheres of their volumes. Below build/examples/seeds;
-# a table, and a plot where Python has matplotlib. docs/verification/assemblies.md has the results.
+# The scatter between samples: the test with eight seeds, which fill the box differently with the
+# same shapes, and with the spheres of their volumes. Below build/examples/seeds; a table, and a
+# plot where Python has matplotlib. docs/verification/assemblies.md has the results.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 reckon=${1:-build/release/apps/reckon/reckon}

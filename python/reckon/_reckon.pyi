@@ -10,10 +10,10 @@ _Path = str | os.PathLike[str]
 __version__: str
 
 class Error(RuntimeError):
-    """What went wrong: where, what, why, and what to do."""
+    """An error: place, problem, reason and remedy."""
 
 def set_threads(count: int) -> None:
-    """Threads of everything that follows. No result depends on it."""
+    """The number of threads from now on. No result depends on it."""
 
 def threads() -> int: ...
 
@@ -53,7 +53,7 @@ class Shape:
         """Distance (n,) [m] and its gradient (n, 3) at points (n, 3) of the body frame; NaN outside the grid."""
 
 class ShapeLibrary:
-    """A library file. A shape is read when it is asked for."""
+    """A library file. A shape is read when it is requested."""
 
     def __init__(self, path: _Path) -> None: ...
     @property

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whole runs, and the folders that they leave."""
+"""Complete runs and their folders."""
 from __future__ import annotations
 
 import json
@@ -16,11 +16,11 @@ from .scenes import Scene, handle_of
 
 
 class InvalidRunWarning(UserWarning):
-    """The figures of a run mean nothing. The message says why."""
+    """The figures of a run mean nothing. The message gives the reasons."""
 
 
 class Run:
-    """What a run wrote into its folder, by this package or by `reckon run`; may be under way.
+    """The folder of a run, by this package or by `reckon run`; the run may be in progress.
 
     Where its figures mean nothing, an InvalidRunWarning says so and why when it is opened.
     """
@@ -40,7 +40,7 @@ class Run:
 
     @property
     def reasons(self) -> list[tuple[str, str]]:
-        """Why they do not: a code and a text each, e.g. ("negative_void_ratio", ...)."""
+        """The reasons if they do not: a code and a text each, e.g. ("negative_void_ratio", ...)."""
         return _reckon._verdict(self.folder)["reasons"]
 
     @property
@@ -72,7 +72,7 @@ class Run:
 
     @property
     def record(self) -> dict[str, Any]:
-        """What ran, where, how long (run.json)."""
+        """The program, machine and times of the run (run.json)."""
         return json.loads((self.folder / "run.json").read_text())
 
     def __repr__(self) -> str:
@@ -89,7 +89,7 @@ def run(
     progress: Callable[[int, int], None] | None = None,
     comm: Any = None,
 ) -> Run:
-    """Runs a scene to its end, as `reckon run` does, and gives what it left; `report` tells how it ended.
+    """Runs a scene to its end, as `reckon run` does, and returns its folder, whose `report` states how it ended.
 
     `progress(step, steps)` is called ten times a second at most. Ctrl-C, or an exception of `progress`, ends the run
     with a checkpoint from which `resume` goes on to the same bits. `comm` is a communicator of mpi4py whose processes

@@ -14,7 +14,7 @@ from . import _reckon
 
 
 class Scene:
-    """What is to happen to which grains: a scene file, or a dictionary of the same tables and keys.
+    """The description of a run: a scene file, or a dictionary of the same tables and keys.
 
     Made whole: every fault of a scene is found when it is made, and all are in the one Error. `directory` is what
     relative paths in the scene are relative to.
@@ -47,7 +47,7 @@ class Scene:
 
     @property
     def tables(self) -> dict[str, Any]:
-        """A copy of what is given, as a dictionary."""
+        """A copy of the given scene, as a dictionary."""
         return tomllib.loads(self.text)
 
     @property
@@ -56,7 +56,7 @@ class Scene:
 
     @property
     def grain_count(self) -> int:
-        """How many grains were placed."""
+        """The number of placed grains."""
         return self._compiled.grain_count
 
     def resolved(self) -> str:
@@ -82,12 +82,12 @@ class Scene:
 
 
 def handle_of(comm: Any) -> int | None:
-    """What the compiled half takes for a communicator of mpi4py, or for none."""
+    """The argument of the compiled half for a communicator of mpi4py, or for none."""
     return None if comm is None else comm.py2f()
 
 
 def _plain(value: Any) -> Any:
-    """What TOML has words for: arrays and numbers of NumPy become lists and Python's own numbers, paths text."""
+    """Values for TOML: arrays and numbers of NumPy become lists and numbers of Python, paths become text."""
     if isinstance(value, Mapping):
         return {key: _plain(inner) for key, inner in value.items()}
     if isinstance(value, (list, tuple)):
@@ -112,7 +112,7 @@ def _child(place: Any, word: str, key: str) -> Any:
 
 
 class Simulation:
-    """A scene under way, step by step; nothing is written.
+    """A simulation of a scene, step by step; nothing is written.
 
     The same bits as `reckon run` of the scene. Its stages do not end by themselves: that is what `run` does.
 
@@ -125,7 +125,7 @@ class Simulation:
         self._compiled = _reckon._Simulation(scene._compiled, handle_of(comm))
 
     def step(self, count: int = 1) -> None:
-        """Makes `count` steps. Other Python threads run meanwhile, and Ctrl-C is heard."""
+        """Makes `count` steps. Other Python threads run meanwhile, and Ctrl-C works."""
         self._compiled.step(count)
 
     def begin_next_stage(self) -> None:
@@ -133,7 +133,7 @@ class Simulation:
 
     @property
     def time(self) -> float:
-        """Simulated so far [s]."""
+        """Simulated time [s]."""
         return self._compiled.time
 
     @property
@@ -143,7 +143,7 @@ class Simulation:
 
     @property
     def planned_steps(self) -> int:
-        """How many steps the scene asks for; with stages, at most."""
+        """The number of steps of the scene; with stages, the maximum."""
         return self._compiled.planned_steps
 
     @property
@@ -152,11 +152,11 @@ class Simulation:
 
     @property
     def stage(self) -> str | None:
-        """The name of the stage under way; None without stages."""
+        """The name of the current stage; None without stages."""
         return self._compiled.stage
 
     def measure(self) -> dict[str, Any]:
-        """What history.csv has, by name without the unit, the sample included, at the current step.
+        """The quantities of history.csv by name without the unit, those of the sample included, at the current step.
 
         Energies are in the dictionary `energy`, the forces on walls in the rows of `wall_force`, in scene order.
         """

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""For mpirun: the processes of mpi4py run and step a scene to the bits of one process alone.
+"""For mpirun: the processes of mpi4py run and step a scene to the same bits as a single process.
 
     ranks_check.py FOLDER      an empty folder for the files
 """

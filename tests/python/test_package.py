@@ -48,7 +48,7 @@ def _numbers(table, skip=""):
 
 
 def _numbers_in(header):
-    """How many numbers the columns of history.csv are as tables of Python, where a tensor of six is nine."""
+    """The count of numbers of the columns of history.csv in Python, where a tensor of six has nine."""
     return len(header) + 3 * sum(name.replace("_Pa", "").endswith("_xx") for name in header)
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""./check counts what the test runner reported, and never hides a failure."""
+"""./check counts the results of the test runner, and never hides a failure."""
 import pathlib
 import sys
 import tempfile

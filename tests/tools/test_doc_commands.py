@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""tools/doc_commands.py finds the commands of a page, and those that would escape the tests."""
+"""tools/doc_commands.py finds the commands of a page, and those that the tests would miss."""
 import pathlib
 import sys
 import unittest

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The link checker follows good links and names broken ones."""
+"""The link checker accepts good links and reports broken ones."""
 import pathlib
 import sys
 import tempfile

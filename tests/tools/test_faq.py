@@ -16,7 +16,7 @@ def messages():
 
 
 def quotations(page):
-    """What stands in quotation marks in the bold beginnings of paragraphs."""
+    """The quotations in the bold beginnings of paragraphs."""
     bold = re.findall(r"^\*\*(.+?)\*\*", page, re.MULTILINE)
     return [quoted for heading in bold for quoted in re.findall(r'"([^"]+)"', heading)]
 

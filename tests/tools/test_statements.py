@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What README, CONTRIBUTING and ARCHITECTURE say about the build and the modules is so."""
+"""The statements of README, CONTRIBUTING and ARCHITECTURE about the build and the modules are true."""
 import json
 import pathlib
 import re
