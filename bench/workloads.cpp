@@ -126,7 +126,7 @@ Workload triaxial(std::uint32_t grains, const WorkloadRequest& request) {
   return work;
 }
 
-/// Grains of their own shapes, thrown down.
+/// Grains with their own shapes, dropped.
 Workload falling(std::uint32_t grains, const BoxConfig& region, const Vec3& velocity,
                  const WorkloadRequest& request) {
   Workload work;

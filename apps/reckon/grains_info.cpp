@@ -19,7 +19,7 @@
 namespace reckon::app {
 namespace {
 
-/// A shape and what its arrays came to; they themselves are gone.
+/// A shape and the sizes of its arrays, without the arrays.
 struct Entry {
   Shape shape;
   ShapeSummary summary;

@@ -54,5 +54,5 @@ if command -v mpirun >/dev/null; then
   launch=()
 fi
 "$reckon" run scene.toml --out whole --threads 2 --steps "$steps" --overwrite --quiet
-compare whole "without the break, 2 threads"
+compare whole "without the restart, 2 threads"
 exit "$different"

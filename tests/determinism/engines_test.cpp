@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The near engine and the plain one end in the same bits, whatever the grains do.
+// The near engine and the plain one end in the same bits, for any motion of the grains.
 #include <gtest/gtest.h>
 
 #include <algorithm>

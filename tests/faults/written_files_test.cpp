@@ -106,7 +106,7 @@ struct Attempt {
   bool failed;  ///< whether a call has failed
 };
 
-/// In a process of its own: a library that has met a failure may be of no more use.
+/// In a separate process: a library may be unusable after a failure.
 Attempt attempt(const Kind& kind, const File& file, const FailingCall& failing) {
   constexpr int failed_flag = 64;
   const pid_t child = ::fork();

@@ -99,7 +99,7 @@ TEST(CornersAndEdges, RestOnFacesAndEachOtherInAnyOrder) {
   EXPECT_NEAR(sunk(on_edge, std::sqrt(2.0), true), edge, 1e-9);
 }
 
-/// Grains of three sizes fall onto each other; the same whatever their order.
+/// Grains of three sizes fall onto each other; the result does not depend on their order.
 TEST(OrderOfGrains, DoesNotChangeTheAnswer) {
   for (const AnyContactLaw& law : {AnyContactLaw{AreaLaw{2e7, 2e7, area_dashpot_factor(0.5)}},
                                    AnyContactLaw{hertz_law(2e7, 0.2, false, 0.2)}}) {

@@ -78,7 +78,7 @@ class RadiusSearch {
       return;
     }
     const double half = size / 2;
-    // The far octant first: what it finds may settle the others.
+    // The far octant first: its result may decide the others.
     const unsigned away = (cell_corner_.x > 0 ? 1U : 0U) | (cell_corner_.y > 0 ? 2U : 0U) |
                           (cell_corner_.z > 0 ? 4U : 0U);
     for (unsigned o = 0; o < 8; ++o) {

@@ -37,7 +37,7 @@ struct PrincipalFrame {
 /// in its principal frame is not turned.
 ///
 /// Moments that agree to `degenerate_moments` of the largest leave their axes free: then the axes
-/// of the mesh's frame are kept as far as possible instead of whatever rounding makes of them.
+/// of the mesh's frame are kept as far as possible, unaffected by rounding.
 [[nodiscard]] PrincipalFrame principal_frame(const SolidProperties& properties);
 
 /// Relative difference below which two principal moments count as equal.

@@ -20,7 +20,7 @@ using ply::Encoding;
 using ply::NumberType;
 using ply::Property;
 
-/// The numbers after the header, whatever their encoding.
+/// The numbers after the header, in any encoding.
 class Body {
  public:
   Body(const TextReader& text, std::string_view bytes, const std::string& name, Encoding encoding)

@@ -100,7 +100,7 @@ class EarClipping {
       if (turn_at(c) <= 0) reflex_.push_back(face_[c]);
     }
   }
-  /// After a corner before `corner` has gone: its neighbours may have become convex.
+  /// After a corner before `corner` was removed: its neighbours may have become convex.
   void find_reflex_near(std::size_t corner) {
     for (const std::size_t c : {before(corner % face_.size()), corner % face_.size()}) {
       if (turn_at(c) > 0) std::erase(reflex_, face_[c]);

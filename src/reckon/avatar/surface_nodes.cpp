@@ -15,7 +15,8 @@
 namespace reckon {
 namespace {
 
-/// A part of the relaxation. The first settles where points go, the second evens them out.
+/// A part of the relaxation. The first spreads the points, the second makes their distances
+/// uniform.
 struct Stage {
   std::size_t samples_per_point;
   int rounds;
@@ -27,7 +28,7 @@ using Stages = std::array<Stage, 2>;
 constexpr Stages for_few_points{Stage{24, 24, 1.7}, Stage{48, 12, 1.4}};
 constexpr Stages for_many_points{Stage{10, 10, 1.7}, Stage{32, 4, 1.4}};
 constexpr std::size_t few_points = 2000;
-constexpr int rounds_per_look_around = 4;  // after which neighbours are sought anew
+constexpr int rounds_per_look_around = 4;  // after which neighbours are searched again
 constexpr double neighbour_reach = 1.7;    // [mean spacings]
 constexpr double opposite_cosine = -0.5;
 

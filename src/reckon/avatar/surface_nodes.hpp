@@ -42,7 +42,7 @@ class SurfaceSampler {
   double area_{0};
 };
 
-/// All of them, with an order of its own.
+/// All of them, in any order.
 [[nodiscard]] OrientedPoints sample_surface(const TriangleMesh& mesh, std::size_t count);
 [[nodiscard]] OrientedPoints sample_surface(const SurfaceSampler& sampler, std::size_t count);
 

@@ -71,7 +71,7 @@ class OpenFile {
   int descriptor_{-1};
 };
 
-/// Writes `parts` one after the other as the whole content of `target`, by way of a PendingFile.
+/// Writes `parts` one after the other as the whole content of `target`, through a PendingFile.
 void write_file(const std::filesystem::path& target, std::span<const std::string_view> parts);
 void write_file(const std::filesystem::path& target, std::string_view content);
 

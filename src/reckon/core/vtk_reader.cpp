@@ -27,7 +27,7 @@ constexpr std::array<std::pair<std::string_view, VtkSection>, 7> sections{{
     {"Polys", VtkSection::polys},
 }};
 
-/// The value of name="value" in a tag, as it stands there.
+/// The value of name="value" in a tag, unchanged.
 std::string_view attribute(std::string_view tag, const std::string& name) {
   const std::string start = " " + name + "=\"";
   const std::size_t at = tag.find(start);

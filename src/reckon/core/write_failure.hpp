@@ -17,8 +17,8 @@ class MachineFailure : public Error {
 };
 
 /// Throws MachineFailure for a file that was refused with this errno (0: not known). The text names
-/// the file system and how much of it is free, and the cure. Where the user gave the wrong place (a
-/// folder that is missing or may not be written) it throws a plain Error.
+/// the file system and how much of it is free, and the remedy. Where the user gave the wrong place
+/// (a folder that is missing or may not be written) it throws a plain Error.
 [[noreturn]] void throw_write_failure(const std::filesystem::path& file, int error_number,
                                       const std::string& problem = "cannot be written");
 

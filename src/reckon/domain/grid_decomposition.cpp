@@ -19,8 +19,8 @@ void GridDecomposition::update(std::span<const Vec3> positions, std::span<const 
       domain.high[axis] = period[axis];
     }
   }
-  // The grid stays while the assembly stays within a bin of it: a grid drawn anew sends many grains
-  // to other ranks.
+  // The grid stays while the assembly stays within a bin of it: a new grid sends many grains to
+  // other ranks.
   const double slack = reach_;
   // Bins may be wider than the reach, which changes with the speed of the fastest grain.
   bool keep = reach <= reach_ && reach >= 0.8 * reach_ && !domain_.empty();

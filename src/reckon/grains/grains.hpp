@@ -36,7 +36,7 @@ struct EnergyLedger {
 struct GrainState {
   GrainId id;
   ShapeId shape;
-  bool prescribed{false};       ///< keeps its velocities whatever the forces
+  bool prescribed{false};       ///< keeps its velocities, independent of forces
   Vec3 position;                ///< centre of mass, at the step [m]
   Quaternion orientation;       ///< body to world, at the step
   Vec3 velocity;                ///< half a step before [m/s]

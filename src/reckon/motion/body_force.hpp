@@ -10,7 +10,7 @@
 
 namespace reckon {
 
-/// Accelerations that act on every grain, whatever it touches.
+/// Accelerations that act on every grain, independent of contacts.
 struct BodyForce {
   Vec3 gravity;                      ///< [m/s^2]
   double random_acceleration{0};     ///< each component uniform in [-a, a) [m/s^2]

@@ -35,9 +35,9 @@ inline void set_thread_count([[maybe_unused]] int count) {
 #endif
 }
 
-/// Calls body(k) for k in [0, count), on all threads, `chunk` indices at a time to whoever is free.
-/// The body may write only what belongs to its k (or to thread_index()). An exception of a body is
-/// carried out of the parallel region: the one of the lowest k, whoever met it first.
+/// Calls body(k) for k in [0, count), on all threads, `chunk` indices at a time to the next free
+/// thread. The body may write only what belongs to its k (or to thread_index()). An exception of a
+/// body is carried out of the parallel region: that of the lowest k, whichever came first.
 template <class Body>
 void parallel_for(std::size_t count, std::size_t chunk, Body&& body) {
   if (count <= chunk) {  // work for one thread: do not wake the others

@@ -11,7 +11,7 @@ namespace reckon {
 namespace {
 
 /// Where a point outside the grid counts as this far outside the grain: far enough to close the
-/// surface, whatever lies at the grid's edge.
+/// surface, independent of the edge of the grid.
 double value_at(const LevelSetView& grid, const Vec3& point_body) {
   const LevelSetView::Sample sample = grid.sample(point_body);
   return sample.inside_grid ? sample.phi : grid.spacing;

@@ -10,7 +10,7 @@ namespace reckon {
 
 /// The request of a browser. Methods other than GET and HEAD are refused earlier.
 struct HttpRequest {
-  std::string path;  ///< as it stands in the request, query included
+  std::string path;  ///< as in the request, query included
   std::string host;  ///< the header of that name, without a port
 };
 

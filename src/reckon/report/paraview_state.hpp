@@ -21,7 +21,7 @@ struct ParaviewState {
 };
 
 /// Writes what draws a run in ParaView at once, into the folder paraview/ of the run: the shapes'
-/// surfaces, of which ParaView draws one wherever a grain has it, and a script that opens the run's
+/// surfaces, of which ParaView draws one for each of its grains, and a script that opens the run's
 /// files. Displacements count from the saved time at which the last stage began. Throws Error where
 /// the folder holds no run, or one that has saved no grains.
 [[nodiscard]] ParaviewState write_paraview_state(const RunFolder& folder);

@@ -101,7 +101,7 @@ void add_walls(const SceneConfig& scene, JsonWriter& json) {
   json.end();
 }
 
-/// Surfaces of several shapes behind each other, with numbers as short as a picture allows.
+/// Surfaces of several shapes in sequence, with numbers as short as a picture allows.
 struct PackedMeshes {
   std::vector<std::int16_t> position;  ///< in units of the shape's `extent` / 32767
   std::vector<std::int8_t> normal;     ///< in units of 1/127

@@ -17,7 +17,7 @@
 namespace reckon {
 
 /// The shapes that a checkpoint was made with, from the files that its scene names; `place` is for
-/// messages. Throws Error when they are gone or have changed.
+/// messages. Throws Error when they are missing or have changed.
 [[nodiscard]] ShapeCatalog shapes_of(const Checkpoint& checkpoint, const std::string& place);
 
 /// The grains of a checkpoint as fields show them: in a periodic cell, their images in the cell.

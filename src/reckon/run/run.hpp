@@ -76,7 +76,7 @@ class RunFailure : public Error {
 /// Runs a scene from start or checkpoint to its end, and keeps the folder's files. Whether it runs
 /// in one go or is interrupted and resumed, history, fields and checkpoints end up the same to the
 /// last bit. Throws Error before the first step for a folder or checkpoint that does not fit, and
-/// RunFailure after it, on all ranks. Collective; `reading` and `scene`, which is sound and loaded,
+/// RunFailure after it, on all ranks. Collective; `reading` and `scene`, which is valid and loaded,
 /// are used only on the root, which writes all files.
 RunReport run_scene(const SceneReading& reading, const LoadedScene& scene,
                     const RunOptions& options, const RunHooks& hooks,

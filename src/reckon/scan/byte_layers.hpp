@@ -10,7 +10,7 @@
 
 namespace reckon {
 
-/// A volume whose layers come as bytes, whatever they are taken from.
+/// A volume whose layers are bytes, from any source.
 class ByteLayers : public VolumeReader {
  public:
   [[nodiscard]] GrayVolume read_layers(std::int32_t first, std::int32_t count) final;

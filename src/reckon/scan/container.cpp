@@ -348,7 +348,7 @@ GrayOnDisk without(const Container& container, const Specimen& specimen, double 
   return result;
 }
 
-/// The specimen without lines and layers that are gone.
+/// The specimen without the removed lines and layers.
 MaskOnDisk inside_without(const Container& container, const Specimen& specimen,
                           const Workspace& work) {
   MaskOnDisk result{specimen.gray.dims(), specimen.gray.voxel(), work.folder};

@@ -18,7 +18,7 @@ class ByteFile {
  public:
   /// For reading.
   explicit ByteFile(const std::filesystem::path& file);
-  /// A new file without a name, which vanishes with this object, however the program ends.
+  /// A new file without a name, which is removed with this object, also after a crash.
   [[nodiscard]] static std::shared_ptr<ByteFile> scratch(const std::filesystem::path& folder);
   ~ByteFile();
   ByteFile(const ByteFile&) = delete;

@@ -49,7 +49,7 @@ void store(const std::filesystem::path& file, Key key, const DiskVolume<Value>& 
   writer.finish();
 }
 
-/// The volume of a stage's file if it is sound and has this key; `numbers` are filled, with as many
+/// The volume of a stage's file if it is valid and has this key; `numbers` are filled, with as many
 /// as it had or more.
 template <class Value>
 std::optional<DiskVolume<Value>> recall(const std::filesystem::path& file, Key key,

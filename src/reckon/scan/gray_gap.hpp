@@ -36,7 +36,7 @@ class EdgeProfile {
 /// The smallest gap between two grains, from the gray values [m]; about 0 where they touch, and
 /// below 0 only by noise.
 ///
-/// The void shares summed up along a line across the gap are its width there, however blurred,
+/// The void shares summed up along a line across the gap are its width there, independent of blur,
 /// averaged across the line over the blur. A paraboloid is fitted to these sums within two voxels
 /// of the place, near `pair`, where they are least. Its lowest value, less what a blur of this
 /// `spread` adds to a paraboloid (spread^2 / 2 times the sum of its principal curvatures), is the

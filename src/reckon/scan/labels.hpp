@@ -21,7 +21,7 @@ struct NeckRules {
   double wide{0.95};
   /// With gray values: of those wider than `narrow` also those that are solid, because less than
   /// this share of the gray between void and the pieces' own solid is missing in the neck. Grains
-  /// that merely touch leave void there, however blurred.
+  /// that only touch leave void there, even if blurred.
   double largest_void{0.03};
   double narrow{0.7};
   /// Pieces whose own solids differ by more than this share of the brighter one's step from void

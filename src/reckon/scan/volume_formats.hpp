@@ -51,11 +51,11 @@ struct VolumeHeader {
   std::uint64_t data_start{0};          ///< where the numbers begin in a file
   std::uint64_t skip_lines{0};          ///< lines of text that follow there, before the numbers
   std::uint64_t skip_bytes{0};          ///< bytes behind these lines, before the numbers
-  bool at_end{false};                   ///< the numbers end with the file, wherever they begin
+  bool at_end{false};                   ///< the numbers end with the file
   bool may_go_on{false};                ///< other things may follow the numbers
   std::vector<std::string> remarks;
 };
-/// From the first bytes of a file. Throw Error for whatever they do not understand.
+/// From the first bytes of a file. Throw Error for unknown content.
 [[nodiscard]] VolumeHeader parse_metaimage_header(std::string_view bytes, const std::string& place);
 [[nodiscard]] VolumeHeader parse_nrrd_header(std::string_view bytes, const std::string& place);
 [[nodiscard]] VolumeHeader parse_npy_header(std::string_view bytes, const std::string& name);
@@ -81,8 +81,8 @@ void check_length(const VolumeHeader& header, std::uint64_t bytes, const std::st
 /// The content of a header, after its dimensions were checked.
 [[nodiscard]] VolumeOutline outline_of(const VolumeHeader& header);
 
-/// A volume whose numbers lie in a file as they are, one behind the other from the header's
-/// `data_start` on. Throws Error unless they end with the file.
+/// A volume whose numbers are stored unpacked, in sequence from the header's `data_start` on.
+/// Throws Error unless they end with the file.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_plain_volume(std::shared_ptr<const ByteFile> file,
                                                               const VolumeHeader& header);
 /// Likewise, with the same count of layers in each of several files.

@@ -11,8 +11,8 @@
 /// Advice on the keys of a scene: what to write instead, as a sentence.
 namespace reckon {
 
-/// What may have been meant by an unknown key: a likeness among those of its table, else the same
-/// word in other tables, else a longer name in its table.
+/// The likely meaning of an unknown key: a similar one among those of its table, else the same word
+/// in other tables, else a longer name in its table.
 [[nodiscard]] std::string advice_on_unknown_key(const std::string& name,
                                                 std::span<const std::string> known);
 

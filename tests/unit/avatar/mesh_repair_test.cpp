@@ -173,7 +173,7 @@ TEST(MeshRepair, ClosesSlits) {
   expect_closed(mesh, 1, 1e-12);
 }
 
-// Two sheets that hang together in one corner, as at the border of a photogrammetry scan.
+// Two sheets that share one corner, as at the border of a photogrammetry scan.
 TEST(MeshRepair, OpensPinchedBorders) {
   TriangleMesh mesh = without(geodesic_sphere(10), [](const Vec3& p) { return p.z < -0.7; });
   // An extra triangle that shares one corner of the border only.

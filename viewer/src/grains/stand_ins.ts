@@ -44,7 +44,7 @@ const ballShader = {
     }`,
 };
 
-/** All grains as one thing, in place of their own surfaces where these would be slow to draw. */
+/** All grains as one object, in place of their own surfaces where these would be slow to draw. */
 export class StandIns {
   readonly coarse = new Mesh(new BufferGeometry(), new MeshLambertMaterial({ vertexColors: true }));
   readonly balls = new Points(
