@@ -144,8 +144,8 @@ ShapeStore make_shapes(const std::vector<GrainKind>& kinds, std::uint32_t distin
     const std::size_t first = forms->size();
     for (std::uint32_t n = 0; n < kind.count; ++n) {
       if (n < distinct) {
-        forms->push_back(
-            build_shape(generate_grain(statistics, seed, k * 1000 + n), resolution, "grain"));
+        forms->push_back(build_shape(generate_grain(statistics, seed, k * 1000 + n), resolution,
+                                     "grain", SurfaceKind::curved));
       }
       form_of.push_back(first + n % distinct);
     }

@@ -262,6 +262,12 @@ std::vector<ShapeSource> solid_sources(const SolidOptions& own) {
   add_all(own.superellipsoid, "superellipsoid", 3, 5, [](const Values& v, double edge) {
     return superellipsoid_mesh({{v[0], v[1], v[2]}, v[3], v[4]}, edge);
   });
+  for (std::size_t n = 0; n < own.superellipsoid.size(); ++n) {
+    // Only edges along the coordinate planes are edges of its mesh.
+    const auto v = parse_lengths("--superellipsoid", own.superellipsoid[n], 3, 5);
+    if (std::min(v[3], v[4]) >= 1) continue;
+    sources[sources.size() - own.superellipsoid.size() + n].kind = SurfaceKind::curved;
+  }
   add_all(own.box, "box", 3, 3, [](const Values& v, double edge) {
     return box_mesh({v[0] / 2, v[1] / 2, v[2] / 2}, edge);
   });

@@ -13,6 +13,7 @@
 
 #include "../support/verification_table.hpp"
 #include "reckon/avatar/analytic.hpp"
+#include "reckon/avatar/distance_transform.hpp"
 #include "reckon/avatar/grid_mass.hpp"
 #include "reckon/avatar/shape_sources.hpp"
 #include "reckon/avatar/surface_extraction.hpp"
@@ -60,7 +61,7 @@ Solid superellipsoid() {
   const double fine = solid_properties(mesh(0.02)).surface_area;
   const double finer = solid_properties(mesh(0.01)).surface_area;
   return {"superellipsoid",
-          solid_source("superellipsoid", 2, mesh),
+          solid_source("superellipsoid", 2, mesh, SurfaceKind::curved),
           1.0864027,
           {0.128351, 0.262462, 0.318410},
           finer + (finer - fine) / 3};
@@ -89,8 +90,8 @@ struct GridErrors {
   double voxels{0};
   double volume{0};          // stored
   double inertia{0};         // stored
-  double area{0};            // stored: the nodes' areas in all
-  double counted_volume{0};  // smoothed counting on the grid
+  double area{0};            // stored
+  double counted_volume{0};  // smoothed counting on the grid of distances
   double counted_inertia{0};
   double plain_volume{0};    // plain counting on the grid
   double contact_volume{0};  // inside the interpolated zero surface, used by contacts
@@ -102,12 +103,13 @@ GridErrors grid_errors(const Solid& solid, double voxels) {
   const std::vector<ShapeSource> sources{solid.source};
   const Shape shape = build_library(sources, {.voxels_per_diameter = voxels})[0];
   const LevelSetView grid{shape.level_set};
-  const SolidProperties counted = grid_properties(grid);
+  const TriangleMesh mesh =
+      to_principal_frame(solid.source.surface({.voxels_per_diameter = voxels}));
+  const LevelSet distances = transformed_distance(mesh, TriangleBvh{mesh}, shape.level_set.spacing);
+  const SolidProperties counted = grid_properties(distances);
   const SolidProperties contact = solid_properties(extract_surface(grid));
-  double area = 0;
   double gradient = 0;
   for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
-    area += shape.nodes.area[n];
     gradient += std::abs(norm(grid.sample(shape.nodes.position(n)).gradient_body) - 1);
   }
   const Vec3 counted_moments{counted.inertia.row_x.x, counted.inertia.row_y.y,
@@ -115,10 +117,10 @@ GridErrors grid_errors(const Solid& solid, double voxels) {
   return {voxels,
           relative_error(shape.mass.volume, solid.volume),
           largest_relative_error(shape.mass.inertia, solid.inertia),
-          relative_error(area, solid.area),
+          relative_error(shape.descriptors.surface_area, solid.area),
           relative_error(counted.volume, solid.volume),
           largest_relative_error(counted_moments, solid.inertia),
-          relative_error(plain_grid_volume(grid), solid.volume),
+          relative_error(plain_grid_volume(distances), solid.volume),
           relative_error(contact.volume, solid.volume),
           relative_error(contact.surface_area, solid.area),
           gradient / static_cast<double>(shape.nodes.size())};
@@ -201,7 +203,7 @@ void expect_second_order(const std::vector<GridErrors>& all, const std::string& 
   for (const GridErrors& e : all) {
     EXPECT_LT(e.volume, 0.5 / (e.voxels * e.voxels)) << name << ' ' << e.voxels;
     EXPECT_LT(e.counted_volume, 0.6 / (e.voxels * e.voxels)) << name << ' ' << e.voxels;
-    EXPECT_LT(e.contact_volume, 6 / (e.voxels * e.voxels)) << name << ' ' << e.voxels;
+    EXPECT_LT(e.contact_volume, 0.6 / (e.voxels * e.voxels)) << name << ' ' << e.voxels;
   }
 }
 
@@ -233,13 +235,18 @@ TEST(ShapeConvergence, Box) {
   EXPECT_LT(all.back().contact_area, 0.03);
 }
 
-TEST(NodeAreaConvergence, Sphere) { refine_nodes(sphere(), 0.005, 0.01, 0.01); }
-TEST(NodeAreaConvergence, Ellipsoid) { refine_nodes(ellipsoid(), 0.005, 0.02, 0.01); }
+TEST(NodeAreaConvergence, Sphere) { refine_nodes(sphere(), 0.002, 0.01, 0.01); }
+TEST(NodeAreaConvergence, Ellipsoid) { refine_nodes(ellipsoid(), 0.002, 0.02, 0.01); }
 TEST(NodeAreaConvergence, Superellipsoid) { refine_nodes(superellipsoid(), 0.01, 0.05, 0.03); }
-// Nodes closer than a voxel lie on the bevels that the grid makes of edges, with slanted normals.
-// The closure of few nodes on a box scatters with the place where spreading begins: 0.02 to 0.035
-// was seen at 100.
-TEST(NodeAreaConvergence, Box) { refine_nodes(box(), 0.08, 0.05, 0.05); }
+// Nodes on edges count with the area of one face, so that here the box is taken for one that only a
+// grid knows. Nodes closer than a voxel lie on the bevels that the grid makes of edges, with
+// slanted normals. The closure of few nodes on a box scatters with the place where spreading
+// begins: 0.02 to 0.035 was seen at 100.
+TEST(NodeAreaConvergence, Box) {
+  Solid sampled = box();
+  sampled.source.kind = SurfaceKind::sampled;
+  refine_nodes(sampled, 0.08, 0.05, 0.05);
+}
 
 }  // namespace
 }  // namespace reckon

@@ -10,10 +10,13 @@
 #include <numbers>
 #include <utility>
 
+#include "reckon/avatar/creases.hpp"
+#include "reckon/avatar/curved_surface.hpp"
 #include "reckon/avatar/descriptors.hpp"
 #include "reckon/avatar/distance_transform.hpp"
 #include "reckon/avatar/grid_mass.hpp"
 #include "reckon/avatar/inside_radius.hpp"
+#include "reckon/avatar/interpolation_bias.hpp"
 #include "reckon/avatar/surface_nodes.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/math/portable.hpp"
@@ -50,6 +53,92 @@ void check_resolution(const ShapeResolution& resolution, double diameter, const 
            "node spacing must lie in (0, 0.5] diameters, and a node count must be at least 4",
            "Leave it out for nodes a tenth of a diameter apart.");
   }
+}
+
+/// A mesh in the body frame and what it stands for.
+struct Surface {
+  TriangleMesh mesh;
+  TriangleBvh bvh;
+  SurfaceKind kind;
+  std::vector<Crease> creases;          // empty where edges mean nothing
+  std::optional<CurvedSurface> smooth;  // where vertices lie on one
+
+  Surface(TriangleMesh body_mesh, SurfaceKind surface_kind)
+      : mesh{std::move(body_mesh)}, bvh{mesh}, kind{surface_kind} {
+    if (kind == SurfaceKind::polyhedron || kind == SurfaceKind::solid) creases = creases_of(mesh);
+    if (kind == SurfaceKind::curved || kind == SurfaceKind::solid) smooth.emplace(mesh);
+  }
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
+};
+
+/// Nodes on sharp edges and corners, as far apart as `count` nodes on the whole surface are;
+/// farther where they would be more than a third of all.
+OrientedPoints nodes_on_edges(const Surface& surface, double area, std::size_t count) {
+  OrientedPoints nodes;
+  double spacing = std::sqrt(area / static_cast<double>(count));
+  do {
+    nodes.position = points_on_creases(surface.mesh, surface.creases, spacing);
+    spacing *= 1.2;
+  } while (3 * nodes.position.size() > count);
+  nodes.normal.reserve(nodes.position.size());
+  for (const Vec3& p : nodes.position) {
+    nodes.normal.push_back(normalized(surface.bvh.pseudo_normal(surface.bvh.closest_point(p))));
+  }
+  return nodes;
+}
+
+/// Adds nodes, their areas and clusters. The first `on_edges` of `spread` lie on edges.
+void set_nodes(Shape& shape, const Surface& surface, const SurfaceSampler& sampler,
+               const OrientedPoints& spread, std::size_t on_edges) {
+  OrientedPoints nodes;
+  std::size_t lost = 0;
+  for (std::size_t n = 0; n < spread.size(); ++n) {
+    Vec3 place = spread.position[n];
+    if (n >= on_edges) {
+      const auto on_grid = project_to_surface(shape.level_set, place, spread.normal[n]);
+      if (!on_grid) ++lost;  // a part too thin for the grid: other grains do not see it
+      if (surface.kind == SurfaceKind::sampled) {
+        if (!on_grid) continue;
+        place = *on_grid;
+      } else if (surface.smooth) {
+        place = surface.smooth->point(surface.bvh.closest_point(place));
+      }
+    }
+    nodes.position.push_back(place);
+    nodes.normal.push_back(spread.normal[n]);
+  }
+  if (static_cast<double>(lost) > largest_lost_share * static_cast<double>(spread.size())) {
+    refuse(shape.name, "the grid is too coarse for the thinnest parts",
+           fmt::format("{} of {} nodes find no surface on it", lost, spread.size()),
+           "Give more voxels per diameter.");
+  }
+  SurfaceNodes unsorted;
+  const std::size_t per_node =
+      nodes.size() < many_nodes ? area_samples_per_node : area_samples_per_node / 2;
+  unsorted.area = tributary_areas(nodes, sampler, per_node * nodes.size(), on_edges);
+  for (const Vec3& p : nodes.position) {
+    unsorted.x.push_back(p.x);
+    unsorted.y.push_back(p.y);
+    unsorted.z.push_back(p.z);
+  }
+  shape.nodes = in_compact_order(unsorted);
+  shape.clusters = make_clusters(shape.nodes);
+}
+
+/// Adds nodes, areas, clusters and the bounds that follow from them and the grid.
+void add_nodes(Shape& shape, const Surface& surface, std::size_t count) {
+  const std::vector<std::uint32_t> order = surface.bvh.tree_order();
+  const SurfaceSampler sampler{surface.mesh, order};
+  const OrientedPoints on_edges = nodes_on_edges(surface, sampler.area(), count);
+  set_nodes(shape, surface, sampler, spread_points(sampler, surface.bvh, count, on_edges),
+            on_edges.size());
+  shape.lipschitz = lipschitz_constant(shape.level_set);
+  double farthest_node = 0;
+  for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
+    farthest_node = std::max(farthest_node, norm(shape.nodes.position(n)));
+  }
+  shape.bounding_radius = inside_radius(shape.level_set, farthest_node);
 }
 
 }  // namespace
@@ -109,44 +198,8 @@ std::optional<Vec3> project_to_surface(const LevelSetView& grid, const Vec3& sta
   return start + inner * normal;
 }
 
-void add_nodes(Shape& shape, const TriangleMesh& body_mesh, const TriangleBvh& bvh,
-               std::size_t node_count) {
-  const std::vector<std::uint32_t> order = bvh.tree_order();
-  const SurfaceSampler sampler{body_mesh, order};
-  const OrientedPoints spread = spread_points(sampler, bvh, node_count);
-  OrientedPoints nodes;
-  for (std::size_t n = 0; n < spread.size(); ++n) {
-    const auto point = project_to_surface(shape.level_set, spread.position[n], spread.normal[n]);
-    if (!point) continue;  // too thin for the grid: the contact search does not find it either
-    nodes.position.push_back(*point);
-    nodes.normal.push_back(spread.normal[n]);
-  }
-  if (static_cast<double>(nodes.size()) <
-      (1 - largest_lost_share) * static_cast<double>(spread.size())) {
-    refuse(shape.name, "the grid is too coarse for the thinnest parts",
-           fmt::format("{} of {} nodes find no surface on it", spread.size() - nodes.size(),
-                       spread.size()),
-           "Give more voxels per diameter.");
-  }
-  SurfaceNodes unsorted;
-  const std::size_t per_node =
-      nodes.size() < many_nodes ? area_samples_per_node : area_samples_per_node / 2;
-  unsorted.area = tributary_areas(nodes, sampler, per_node * nodes.size());
-  for (const Vec3& p : nodes.position) {
-    unsorted.x.push_back(p.x);
-    unsorted.y.push_back(p.y);
-    unsorted.z.push_back(p.z);
-  }
-  shape.nodes = in_compact_order(unsorted);
-  shape.clusters = make_clusters(shape.nodes);
-  shape.lipschitz = lipschitz_constant(shape.level_set);
-  double farthest_node = 0;
-  for (const Vec3& p : nodes.position) farthest_node = std::max(farthest_node, norm(p));
-  shape.bounding_radius = inside_radius(shape.level_set, farthest_node);
-}
-
 Shape build_shape(const TriangleMesh& mesh, const ShapeResolution& resolution,
-                  const std::string& name) {
+                  const std::string& name, SurfaceKind kind) {
   const SolidProperties solid = solid_properties(mesh);
   if (!(solid.volume > 0) || !std::isfinite(solid.volume)) {
     refuse(name, "the surface encloses no volume", fmt::format("{} m^3", solid.volume),
@@ -155,14 +208,14 @@ Shape build_shape(const TriangleMesh& mesh, const ShapeResolution& resolution,
   const double diameter = portable::cbrt(6 * solid.volume / std::numbers::pi);
   check_resolution(resolution, diameter, name);
   const PrincipalFrame frame = principal_frame(solid);
-  const TriangleMesh body_mesh = to_frame(mesh, frame);
-  const TriangleBvh bvh{body_mesh};
+  const Surface surface{to_frame(mesh, frame), kind};
 
   Shape shape;
   shape.name = name;
   shape.mass = {solid.volume, frame.moments};
   shape.level_set = transformed_distance(
-      body_mesh, bvh, resolution.voxel_size.value_or(diameter / resolution.voxels_per_diameter),
+      surface.mesh, surface.bvh,
+      resolution.voxel_size.value_or(diameter / resolution.voxels_per_diameter),
       resolution.storage);
   const double grid_volume = grid_properties(shape.level_set).volume;
   if (!(std::abs(grid_volume / solid.volume - 1) <= largest_grid_error)) {
@@ -171,11 +224,13 @@ Shape build_shape(const TriangleMesh& mesh, const ShapeResolution& resolution,
                        100 * grid_volume / solid.volume),
            "Give more voxels per diameter.");
   }
+  shape.descriptors = describe_shape(surface.mesh, surface.bvh, solid, shape.level_set);
+  if (surface.smooth) measure_to_curved_surface(shape.level_set, surface.bvh, *surface.smooth);
+  remove_interpolation_bias(shape.level_set, surface.mesh, surface.creases);
   const double node_area = resolution.node_spacing * diameter * resolution.node_spacing * diameter;
   const double wanted =
       resolution.node_count ? *resolution.node_count : std::ceil(solid.surface_area / node_area);
-  add_nodes(shape, body_mesh, bvh, static_cast<std::size_t>(wanted));
-  shape.descriptors = describe_shape(body_mesh, bvh, solid, shape.level_set);
+  add_nodes(shape, surface, static_cast<std::size_t>(wanted));
   if (resolution.storage == ShapeStorage::band) round_to_band(shape);
   return shape;
 }

@@ -22,6 +22,14 @@ struct ShapeResolution {
   ShapeStorage storage{ShapeStorage::full};
 };
 
+/// How a mesh stands for the surface of a grain, which decides where nodes and the grid's zero lie.
+enum class SurfaceKind : std::uint8_t {
+  sampled,     ///< found from voxels: nodes lie on the zero surface of the interpolated grid
+  polyhedron,  ///< it is the surface: nodes lie on it, its sharp edges and corners
+  curved,      ///< its vertices lie on a smooth surface: nodes lie on that (CurvedSurface)
+  solid,       ///< the same with sharp edges and corners, which get nodes of their own
+};
+
 /// Turns a closed surface into a shape.
 ///
 /// The stored data, and how far its parts agree:
@@ -30,15 +38,19 @@ struct ShapeResolution {
 ///   on the grid (grid_properties) gives the same mass up to the discretisation error: O(h^2) at
 ///   edges, far less on smooth grains. It is compared, and a grid that misses the volume by more
 ///   than `largest_grid_error` is refused as too coarse.
-/// - Nodes lie on the zero surface of the interpolated grid, which the contact search uses. It lies
-///   O(h^2) inside the polyhedron where that is curved. Areas are shares of the polyhedron's area.
+/// - The zero of the interpolated grid, the surface that contact sees, lies on the true surface on
+///   average (remove_interpolation_bias); edges sharper than a voxel are rounded.
+/// - Nodes lie on the true surface where that is known (`kind`), else on the grid's zero. Sharp
+///   edges and corners of a polyhedron or solid get nodes of their own. Areas are shares of the
+///   mesh's area; at edges see tributary_areas.
 ///
 /// `mesh` must be closed and outward, in any frame. Throws Error, with the shape's name as the
 /// place, when it has no volume, the resolution is out of range or too coarse for the shape, or the
 /// grid would have more than `largest_grid` vertices. Uses all threads; the result does not depend
 /// on their number.
 [[nodiscard]] Shape build_shape(const TriangleMesh& mesh, const ShapeResolution& resolution,
-                                const std::string& name);
+                                const std::string& name,
+                                SurfaceKind kind = SurfaceKind::polyhedron);
 
 inline constexpr double largest_grid_error = 0.05;
 inline constexpr double largest_grid = 1e9;  ///< vertices
@@ -51,10 +63,5 @@ inline constexpr double largest_grid = 1e9;  ///< vertices
 /// most 1e-12 spacings or rounding. Empty when the surface does not pass within two spacings.
 [[nodiscard]] std::optional<Vec3> project_to_surface(const LevelSetView& grid, const Vec3& start,
                                                      const Vec3& normal);
-
-/// The part of building that needs no mesh distances: nodes, areas, clusters, Lipschitz constant
-/// and bounding radius for a grid whose surface is also known as a mesh in the same body frame.
-void add_nodes(Shape& shape, const TriangleMesh& body_mesh, const TriangleBvh& bvh,
-               std::size_t node_count);
 
 }  // namespace reckon

@@ -58,11 +58,13 @@ std::uint32_t frequency_for(const ShapeResolution& resolution, double diameter,
 }  // namespace
 
 ShapeSource mesh_file_source(const std::filesystem::path& file, double unit_in_metres) {
-  return {file.stem().string(), [file, unit_in_metres](const ShapeResolution&) {
+  return {file.stem().string(),
+          [file, unit_in_metres](const ShapeResolution&) {
             TriangleMesh mesh = read_mesh(file, unit_in_metres);
             require_closed_surface(mesh, file.string());
             return mesh;
-          }};
+          },
+          0, SurfaceKind::polyhedron};
 }
 
 namespace {
@@ -105,7 +107,8 @@ MeshFileSources mesh_file_sources(const std::filesystem::path& file, double unit
                               [part = std::move(parts[p])](const ShapeResolution&) {
                                 if (part.fault) throw Error{part.fault->text()};
                                 return part.mesh;
-                              }});
+                              },
+                              0, SurfaceKind::polyhedron});
     }
   } catch (const Error& error) {
     made.sources = {
@@ -116,12 +119,14 @@ MeshFileSources mesh_file_sources(const std::filesystem::path& file, double unit
 
 ShapeSource harmonics_file_source(const std::filesystem::path& file, double unit_in_metres,
                                   std::optional<std::uint32_t> degree) {
-  return {file.stem().string(), [=](const ShapeResolution& resolution) {
+  return {file.stem().string(),
+          [=](const ShapeResolution& resolution) {
             SphericalHarmonicGrain grain = read_spherical_harmonics(file, unit_in_metres);
             if (degree) grain = truncated(std::move(grain), *degree);
             const double diameter = diameter_of(surface_mesh(grain, first_look));
             return surface_mesh(grain, frequency_for(resolution, diameter, grain.degree));
-          }};
+          },
+          0, SurfaceKind::curved};
 }
 
 ShapeSource level_set_file_source(const std::filesystem::path& file, double unit_in_metres) {
@@ -135,12 +140,14 @@ ShapeSource level_set_file_source(const std::filesystem::path& file, double unit
 }
 
 ShapeSource solid_source(std::string name, double extent,
-                         std::function<TriangleMesh(double target_edge)> mesh) {
-  return {std::move(name), [extent, mesh = std::move(mesh)](const ShapeResolution& resolution) {
+                         std::function<TriangleMesh(double target_edge)> mesh, SurfaceKind kind) {
+  return {std::move(name),
+          [extent, mesh = std::move(mesh)](const ShapeResolution& resolution) {
             const double coarse_edge = extent / 20;
             const double diameter = diameter_of(mesh(coarse_edge));
             return mesh(std::min(coarse_edge, edge_for(resolution, diameter)));
-          }};
+          },
+          0, kind};
 }
 
 ShapeSource sphere_source(std::string name, double radius) {
@@ -157,13 +164,15 @@ ShapeSource equal_sphere_source(std::string name, double volume) {
 
 ShapeSource generated_source(const GrainStatistics& statistics, std::uint64_t seed,
                              std::uint64_t index) {
-  return {fmt::format("grain_{}", index + 1), [=](const ShapeResolution& resolution) {
+  return {fmt::format("grain_{}", index + 1),
+          [=](const ShapeResolution& resolution) {
             const std::uint32_t degree = statistics.highest_degree;
             const std::uint32_t look = std::max(first_look, degree);
             const double diameter = diameter_of(generate_grain(statistics, seed, index, look));
             return generate_grain(statistics, seed, index,
                                   std::max(frequency_for(resolution, diameter, degree), degree));
-          }};
+          },
+          0, SurfaceKind::curved};
 }
 
 namespace {
@@ -194,7 +203,8 @@ std::vector<Built> build_each(std::span<const ShapeSource> sources,
   std::size_t done = 0;
   const auto build = [&](std::size_t s) {
     try {
-      Shape shape = build_shape(sources[s].surface(resolution), resolution, sources[s].name);
+      Shape shape =
+          build_shape(sources[s].surface(resolution), resolution, sources[s].name, sources[s].kind);
       if (sources[s].sphere_radius > 0) {
         shape.sphere_radius = sources[s].sphere_radius;
         shape.bounding_radius = std::max(shape.bounding_radius, shape.sphere_radius);

@@ -24,11 +24,13 @@ struct ShapeSource {
   /// Makes the closed surface, fine enough for the resolution where the source can choose. Called
   /// in any thread; throws Error when the source is at fault.
   std::function<TriangleMesh(const ShapeResolution&)> surface;
-  double sphere_radius{0};  ///< where it is a sphere [m]
+  double sphere_radius{0};                 ///< where it is a sphere [m]
+  SurfaceKind kind{SurfaceKind::sampled};  ///< how that surface is to be taken
 };
 
 // Sources that choose their own mesh take edges of half a voxel: the chords then lie within
-// h^2 / (32 R) of the surface, a fifth of what trilinear interpolation on the grid does to it.
+// h^2 / (32 R) of the surface. Nodes and grid do not see them (SurfaceKind::curved), volume and
+// inertia do.
 
 /// A mesh file (mesh_reader.hpp), which must pass require_closed_surface.
 [[nodiscard]] ShapeSource mesh_file_source(const std::filesystem::path& file,
@@ -59,7 +61,8 @@ struct MeshFileSources {
                                                 double unit_in_metres);
 /// An analytic solid: `mesh` makes it for a target edge [m], `extent` is its largest length [m].
 [[nodiscard]] ShapeSource solid_source(std::string name, double extent,
-                                       std::function<TriangleMesh(double target_edge)> mesh);
+                                       std::function<TriangleMesh(double target_edge)> mesh,
+                                       SurfaceKind kind = SurfaceKind::solid);
 [[nodiscard]] ShapeSource sphere_source(std::string name, double radius);
 /// The sphere of this volume [m^3].
 [[nodiscard]] ShapeSource equal_sphere_source(std::string name, double volume);

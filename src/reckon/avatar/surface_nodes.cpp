@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 
+#include "reckon/avatar/creases.hpp"
 #include "reckon/shape/node_order.hpp"
 
 namespace reckon {
@@ -31,6 +32,7 @@ constexpr std::size_t few_points = 2000;
 constexpr int rounds_per_look_around = 4;  // after which neighbours are searched again
 constexpr double neighbour_reach = 1.7;    // [mean spacings]
 constexpr double opposite_cosine = -0.5;
+constexpr double least_face = 0.1;  // of a node's largest share, to count as one of its faces
 
 double triangle_area(const TriangleMesh& mesh, const TriangleMesh::Triangle& t) {
   const Vec3& a = mesh.vertices[t[0]];
@@ -323,8 +325,9 @@ OrientedPoints sample_surface(const TriangleMesh& mesh, std::size_t count) {
 
 namespace {
 
-/// Moves points towards the middles of their shares of the samples.
-void relax(OrientedPoints& points, const OrientedPoints& samples, double area, const Stage& stage) {
+/// Moves all points but the first `fixed` towards the middles of their shares of the samples.
+void relax(OrientedPoints& points, std::size_t fixed, const OrientedPoints& samples, double area,
+           const Stage& stage) {
   const std::size_t count = points.size();
   std::vector<std::uint32_t> owner(samples.size());
   std::vector<Vec3> sum(count);
@@ -350,7 +353,7 @@ void relax(OrientedPoints& points, const OrientedPoints& samples, double area, c
       normal_sum[n] += samples.normal[s];
       ++share[n];
     }
-    for (std::size_t n = 0; n < count; ++n) {
+    for (std::size_t n = fixed; n < count; ++n) {
       if (share[n] == 0) continue;
       points.position[n] += stage.over_relaxation * (sum[n] / share[n] - points.position[n]);
       points.normal[n] = normalized(normal_sum[n]);
@@ -361,19 +364,21 @@ void relax(OrientedPoints& points, const OrientedPoints& samples, double area, c
 }  // namespace
 
 OrientedPoints spread_points(const SurfaceSampler& sampler, const TriangleBvh& bvh,
-                             std::size_t count) {
-  OrientedPoints points;
+                             std::size_t count, const OrientedPoints& fixed) {
+  OrientedPoints points = fixed;
+  const std::size_t free = count - std::min(count, fixed.size());
   for (const Stage& stage : count <= few_points ? for_few_points : for_many_points) {
     const OrientedPoints samples = sample_surface(sampler, stage.samples_per_point * count);
-    for (std::size_t n = points.size(); n < count; ++n) {
-      const std::size_t sample = stage.samples_per_point * n + stage.samples_per_point / 2;
+    for (std::size_t n = points.size() - fixed.size(); n < free; ++n) {
+      const std::size_t sample = (2 * n + 1) * samples.size() / (2 * free);
       points.position.push_back(samples.position[sample]);
       points.normal.push_back(samples.normal[sample]);
     }
-    relax(points, samples, sampler.area(), stage);
+    relax(points, fixed.size(), samples, sampler.area(), stage);
   }
   const double spacing = std::sqrt(sampler.area() / static_cast<double>(count));
-  for (Vec3& p : points.position) {
+  for (std::size_t n = fixed.size(); n < points.size(); ++n) {
+    Vec3& p = points.position[n];
     // The same, only faster: most lie so near.
     const auto near = bvh.closest_point_within(p, 0.1 * spacing);
     p = near ? near->point : bvh.closest_point(p).point;
@@ -386,27 +391,50 @@ namespace {
 /// Counts whose samples are whose.
 class Shares {
  public:
-  Shares(const OrientedPoints& points, double area)
-      : nearest_{points, area}, area_{area}, share_(points.size(), 0) {}
+  /// The first `on_edges` points lie on edges.
+  Shares(const OrientedPoints& points, double area, std::size_t on_edges = 0)
+      : nearest_{points, area}, area_{area}, share_(points.size(), 0), faces_(on_edges) {}
 
   void add(const Vec3& position, const Vec3& normal) {
     last_ = nearest_.find(position, normal, last_);  // samples follow a curve
     ++share_[last_];
     ++count_;
+    if (last_ >= faces_.size()) return;
+    for (Face& face : faces_[last_]) {
+      if (dot(face.normal, normal) < crease_cosine) continue;
+      face.share += 1;
+      return;
+    }
+    faces_[last_].push_back({normal, 1.0});
   }
   [[nodiscard]] std::vector<double> areas() const {
     std::vector<double> areas;
     areas.reserve(share_.size());
-    for (const std::uint32_t samples : share_) {
+    for (std::size_t n = 0; n < share_.size(); ++n) {
+      const double samples = n < faces_.size() ? share_of_one_face(n) : share_[n];
       areas.push_back(area_ * samples / static_cast<double>(count_));
     }
     return areas;
   }
 
  private:
+  struct Face {
+    Vec3 normal;   // of one of its samples
+    double share;  // number of samples
+  };
+
+  [[nodiscard]] double share_of_one_face(std::size_t n) const {
+    double largest = 0;
+    for (const Face& face : faces_[n]) largest = std::max(largest, face.share);
+    double faces = 0;
+    for (const Face& face : faces_[n]) faces += face.share >= least_face * largest ? 1 : 0;
+    return faces > 0 ? share_[n] / faces : 0;
+  }
+
   NearestWalk nearest_;
   double area_;
   std::vector<std::uint32_t> share_;
+  std::vector<std::vector<Face>> faces_;  // of each point on an edge
   std::size_t count_{0};
   std::uint32_t last_{0};
 };
@@ -423,8 +451,8 @@ std::vector<double> tributary_areas(const OrientedPoints& points, const Oriented
 }
 
 std::vector<double> tributary_areas(const OrientedPoints& points, const SurfaceSampler& sampler,
-                                    std::size_t count) {
-  Shares shares{points, sampler.area()};
+                                    std::size_t count, std::size_t on_edges) {
+  Shares shares{points, sampler.area(), on_edges};
   sampler.for_each(count,
                    [&](const Vec3& position, const Vec3& normal) { shares.add(position, normal); });
   return shares.areas();

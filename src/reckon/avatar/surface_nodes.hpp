@@ -48,17 +48,22 @@ class SurfaceSampler {
 
 /// `count` points spread evenly on a surface: Lloyd's relaxation (each point moves to the middle of
 /// the samples that are nearest to it) from evenly spaced samples, and at last onto the surface.
+/// The first of them are `fixed`: they stay where they are and push the others away.
 [[nodiscard]] OrientedPoints spread_points(const SurfaceSampler& sampler, const TriangleBvh& bvh,
-                                           std::size_t count);
+                                           std::size_t count, const OrientedPoints& fixed = {});
 
 /// Each point's share of a surface: the part of `samples` that is nearest to it, times `area`.
 /// A sample never counts for a point whose normal is turned away from its own by more than 120
 /// degrees: on a thin plate, that is a point of the other side. Sums to `area` (up to rounding).
 [[nodiscard]] std::vector<double> tributary_areas(const OrientedPoints& points,
                                                   const OrientedPoints& samples, double area);
-/// With `count` samples, which are not kept; the areas sum to the surface's.
+/// With `count` samples, which are not kept. The areas sum to the surface's, but for those of the
+/// first `on_edges` points: such a point has a share of every face that meets at its edge, and in
+/// contact it stands for the face that is met. It gets the mean of those shares, so that the areas
+/// of a face's nodes, edges included, sum to the face's: exactly so over all faces.
 [[nodiscard]] std::vector<double> tributary_areas(const OrientedPoints& points,
-                                                  const SurfaceSampler& sampler, std::size_t count);
+                                                  const SurfaceSampler& sampler, std::size_t count,
+                                                  std::size_t on_edges = 0);
 
 template <class Visit>
 void SurfaceSampler::for_each(std::size_t count, Visit&& visit) const {

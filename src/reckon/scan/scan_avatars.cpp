@@ -122,7 +122,8 @@ Avatar make_avatar(const SegmentedScan& scan, std::uint32_t label, const Labelle
   const PrincipalFrame frame = principal_frame(solid_properties(surface.mesh_world));
   const TriangleMesh body_mesh = to_frame(surface.mesh_world, frame);
   Avatar avatar;
-  Shape shape = build_shape(body_mesh, settings.resolution, name_of(grain, label));
+  Shape shape =
+      build_shape(body_mesh, settings.resolution, name_of(grain, label), SurfaceKind::sampled);
   avatar.quality = judge(shape, surface, body_mesh, label, grain);
   avatar.shape = KeptShape{std::move(shape)};
   avatar.grain.position = frame.origin_mesh;

@@ -13,13 +13,13 @@
 
 namespace reckon {
 
-/// Points on a grain's surface, phi = 0, in the body frame. Their order is part of the shape:
+/// Points on a grain's surface, in the body frame. Their order is part of the shape:
 /// contact forces of a pair are summed in it, and neighbours on the surface are neighbours in it.
 struct SurfaceNodes {
   std::vector<double> x;     ///< [m]
   std::vector<double> y;     ///< [m]
   std::vector<double> z;     ///< [m]
-  std::vector<double> area;  ///< tributary area; sums to the surface area [m^2]
+  std::vector<double> area;  ///< tributary area; that of one face on an edge [m^2]
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
   [[nodiscard]] Vec3 position(std::size_t n) const { return {x[n], y[n], z[n]}; }
