@@ -11,14 +11,17 @@
 #include <charconv>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <variant>
 
+#include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/write_failure.hpp"
+#include "reckon/io/nearest_name.hpp"
 
 namespace reckon {
 namespace {
@@ -28,6 +31,13 @@ namespace {
                .problem = std::move(problem),
                .reason = std::move(reason),
                .fix = {}}};
+}
+
+[[noreturn]] void refuse_header(std::string place, std::string problem) {
+  throw Error{{.place = std::move(place),
+               .problem = std::move(problem),
+               .reason = "it was changed, or written by another version of reckon",
+               .fix = "Put its header back: docs/reference/history.md lists the columns."}};
 }
 
 std::uint64_t step_of(const std::filesystem::path& path, const std::string& line) {
@@ -40,11 +50,12 @@ std::uint64_t step_of(const std::filesystem::path& path, const std::string& line
 }
 
 /// The complete lines of a text, without their ends.
-std::vector<std::string> complete_lines(const std::string& text) {
+std::vector<std::string> complete_lines(std::string_view text) {
   std::vector<std::string> lines;
   std::size_t begin = 0;
-  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
-    lines.push_back(text.substr(begin, end - begin));
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos;
+       end = text.find('\n', begin)) {
+    lines.emplace_back(text.substr(begin, end - begin));
     begin = end + 1;
   }
   return lines;
@@ -154,7 +165,8 @@ void HistoryFile::sync() const {
 }
 
 HistoryTable read_history(const std::filesystem::path& path) {
-  const std::vector<std::string> lines = complete_lines(read_file(path));
+  const std::string text = read_file(path);
+  const std::vector<std::string> lines = complete_lines(without_byte_order_mark(text));
   if (lines.empty()) fail(path, "is empty", "not even a header is there");
   HistoryTable table{cells(lines.front()), {}};
   for (std::size_t n = 1; n < lines.size(); ++n) {
@@ -167,14 +179,42 @@ HistoryTable read_history(const std::filesystem::path& path) {
   return table;
 }
 
+void require_columns(const std::filesystem::path& path, const HistoryTable& history,
+                     std::span<const QuantityGroup> groups) {
+  std::vector<std::string> header = history.header;
+  std::sort(header.begin(), header.end());
+  if (const auto twice = std::adjacent_find(header.begin(), header.end()); twice != header.end()) {
+    refuse_header(path.string(), fmt::format("has two columns \"{}\"", *twice));
+  }
+  const auto has = [&](const std::string& name) {
+    return std::binary_search(header.begin(), header.end(), name);
+  };
+  std::set<std::string> known;
+  std::vector<std::string> missing;
+  for (const QuantityGroup& group : groups) {
+    std::vector<std::string> columns;
+    for (const HistoryQuantity& quantity : group.quantities) {
+      for (std::string& column : quantity.columns()) columns.push_back(std::move(column));
+    }
+    known.insert(columns.begin(), columns.end());
+    if (std::none_of(columns.begin(), columns.end(), has)) continue;  // the run has none of them
+    std::copy_if(columns.begin(), columns.end(), std::back_inserter(missing),
+                 [&](const std::string& column) { return !has(column); });
+  }
+  const auto is_unknown = [&](const std::string& name) { return !known.contains(name); };
+  // A run of an earlier version may lack columns, and a user may add some: only both at once is a
+  // change of names. No run lacks the step.
+  const auto other = std::find_if(header.begin(), header.end(), is_unknown);
+  if (!has("step")) refuse_header(path.string(), "has no column \"step\"");
+  if (other != header.end() && !missing.empty()) {
+    const std::string lost = nearest_name(*other, missing).value_or(missing.front());
+    refuse_header(path.string(), fmt::format("has no column \"{}\", but one \"{}\"", lost, *other));
+  }
+}
+
 double HistoryColumns::at(std::size_t row, std::string_view name) const {
   const auto column = place(name);
-  if (!column) {
-    throw Error{{.place = "history.csv",
-                 .problem = fmt::format("has no column \"{}\"", name),
-                 .reason = "it was changed, or written by another version of reckon",
-                 .fix = "Put its header back: docs/reference/history.md lists the columns."}};
-  }
+  if (!column) refuse_header("history.csv", fmt::format("has no column \"{}\"", name));
   const std::string& cell = history_.rows[row][*column];
   double value = std::numeric_limits<double>::quiet_NaN();
   std::from_chars(cell.data(), cell.data() + cell.size(), value);

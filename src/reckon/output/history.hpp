@@ -57,6 +57,12 @@ struct HistoryTable {
 /// Throws Error when the file cannot be read or a row has not as many cells as the header.
 [[nodiscard]] HistoryTable read_history(const std::filesystem::path& path);
 
+/// Holds the header against the table of quantities. Throws Error that names `path` and the column
+/// where one stands twice, where there is no step, or where a column that the run must have is
+/// missing while another is there that no run has.
+void require_columns(const std::filesystem::path& path, const HistoryTable& history,
+                     std::span<const QuantityGroup> groups);
+
 /// Numbers of a history by column and row.
 class HistoryColumns {
  public:

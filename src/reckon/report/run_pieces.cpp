@@ -43,13 +43,15 @@ double to_number(const std::string& cell) {
 void add_history(const RunFolder& folder, const SceneConfig& scene, std::size_t most_rows,
                  Piece& piece) {
   JsonWriter& json = piece.json();
+  const std::vector<Wall> walls = make_walls(scene);
+  const std::vector<QuantityGroup> groups = quantity_groups(walls);
   HistoryTable table;
   if (std::filesystem::exists(folder.own(folder.history()))) {
     table = read_history(folder.history());
+    require_columns(folder.history(), table, groups);
   }
-  const std::vector<Wall> walls = make_walls(scene);
   std::map<std::string, std::string> meanings;
-  for (const QuantityGroup& group : quantity_groups(walls)) {
+  for (const QuantityGroup& group : groups) {
     for (const HistoryQuantity& quantity : group.quantities) {
       for (const std::string& column : quantity.columns()) meanings[column] = quantity.meaning;
     }

@@ -15,6 +15,7 @@
 #include "reckon/results/saved_fields.hpp"
 #include "reckon/results/stage_report.hpp"
 #include "reckon/simulation/measurement.hpp"
+#include "reckon/simulation/setup.hpp"
 #include "reckon/text/human.hpp"
 
 namespace reckon {
@@ -205,7 +206,10 @@ RunVerdict verdict_of(const RunFolder& folder) {
   const SceneConfig scene = scene_of_run(folder);
   const std::filesystem::path file = folder.own(folder.history());
   HistoryTable history;
-  if (std::filesystem::exists(file)) history = read_history(file);
+  if (std::filesystem::exists(file)) {
+    history = read_history(file);
+    require_columns(file, history, quantity_groups(make_walls(scene)));
+  }
   const std::filesystem::path record = folder.own(folder.json());
   return verdict_on({scene, history, recorded_status(record), recorded_message(record)});
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -91,6 +92,47 @@ TEST_F(HistoryTest, RefusesAnotherHeaderAndRaggedRows) {
   EXPECT_THROW((HistoryFile{path_, quantities_of({std::span{walls}.first(1)}), all}), Error);
   std::ofstream{path_, std::ios::app} << "1,2\n";
   EXPECT_THROW((void)read_history(path_), Error);
+}
+
+/// What is said of a history with this header.
+std::string refusal_of(const std::string& header) {
+  HistoryTable table;
+  for (std::size_t begin = 0; begin <= header.size();) {
+    const std::size_t end = std::min(header.find(',', begin), header.size());
+    table.header.push_back(header.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  try {
+    require_columns("run/history.csv", table, quantity_groups(walls));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(HistoryHeader, AColumnOfAnotherNameIsNamed) {
+  const std::string good = history_header(quantities_of({walls, false, false, false, true, true}));
+  const auto with = [&](const std::string& name, const std::string& other) {
+    std::string header = good;
+    const std::size_t at = header.find(',' + name + ',');
+    EXPECT_NE(at, std::string::npos) << name;
+    return header.replace(at + 1, name.size(), other);
+  };
+  EXPECT_EQ(refusal_of(good), "");
+  EXPECT_EQ(refusal_of(good + ",my_column"), "");  // a user's own
+  EXPECT_EQ(refusal_of("step,time_s"), "");        // a run of an earlier version may have less
+  const auto says = [](const std::string& refusal, const std::string& part) {
+    EXPECT_NE(refusal.find("run/history.csv: " + part), std::string::npos) << refusal;
+  };
+  says(refusal_of(with("strain_x", "strain_X")), R"(has no column "strain_x", but one "strain_X")");
+  says(refusal_of(with("floor:fx_N", "floor_fx")), R"(has no column "floor:fx_N", but one)");
+  says(refusal_of(with("strain_x", "strain_y")), R"(has two columns "strain_y")");
+  says(refusal_of("schritt," + good.substr(5)), R"(has no column "step")");
+}
+
+TEST_F(HistoryTest, AByteOrderMarkIsNoPartOfAName) {
+  std::ofstream{path_} << "\xef\xbb\xbfstep,time_s\n0,0\n";
+  EXPECT_EQ(read_history(path_).header.front(), "step");
 }
 
 /// Everything that a run may measure.
