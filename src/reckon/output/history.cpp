@@ -21,7 +21,6 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/write_failure.hpp"
-#include "reckon/io/nearest_name.hpp"
 
 namespace reckon {
 namespace {

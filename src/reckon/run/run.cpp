@@ -24,9 +24,11 @@
 #include "reckon/parallel/threads.hpp"
 #include "reckon/results/stage_report.hpp"
 #include "reckon/run/run_files.hpp"
+#include "reckon/run/run_plan.hpp"
 #include "reckon/scene/node_spacing.hpp"
 #include "reckon/scene/scene_sharing.hpp"
 #include "reckon/simulation/stage_setup.hpp"
+#include "reckon/simulation/time_step.hpp"
 
 namespace reckon {
 namespace {
@@ -435,6 +437,8 @@ RunReport run_scene(const SceneReading& reading, const LoadedScene& scene,
     files.emplace(reading, shared, prepared, steps, options, hooks);
     if (const auto coarse = coarse_nodes(shared)) files->note("COARSE: " + *coarse);
     for (const std::string& warning : scene.warnings) files->note("WARNING: " + warning);
+    const TimeStepChoice step = choose_time_step(scene.config, scene.grains, scene.shapes);
+    if (step.is_too_long()) files->note(too_long_text(step));
   });
   const bool resumed = ranks.any(files && files->resumed());
   Session session{

@@ -255,10 +255,7 @@ std::string plan_text(const RunPlan& plan) {
                step.given ? "the rule would look at" : "set by", step.limiting.get(),
                plan.limiting_shape, step.mass, step.stiffness,
                step.given ? fmt::format(", and take {:.4g} s", step.rule_step) : std::string{}));
-  const double longest = std::sqrt(step.mass / step.stiffness);  // step_fraction = 1
-  if (step.given && step.step > longest) {
-    line("", fmt::format("TOO LONG: above {:.3g} s forces may grow without bound", longest));
-  }
+  if (step.is_too_long()) line("", too_long_text(step));
   if (plan.overlap) {
     line("overlap", overlap_line(*plan.overlap));
     if (plan.overlap->is_too_deep()) {
@@ -293,6 +290,10 @@ std::string plan_text(const RunPlan& plan) {
                          plan.timed_steps, 1e3 * plan.seconds_per_step));
   }
   return text;
+}
+
+std::string too_long_text(const TimeStepChoice& step) {
+  return fmt::format("TOO LONG: above {:.3g} s forces may grow without bound", step.longest());
 }
 
 std::string plan_json(const RunPlan& plan) {

@@ -69,6 +69,9 @@ struct RunPlan {
 
 /// The plan as a table for people.
 [[nodiscard]] std::string plan_text(const RunPlan& plan);
+/// Of a time step that is_too_long().
+[[nodiscard]] std::string too_long_text(const TimeStepChoice& step);
+
 /// The plan as JSON; `valid` and the scene's name go in front.
 [[nodiscard]] std::string plan_json(const RunPlan& plan);
 

@@ -14,10 +14,10 @@ namespace {
 constexpr double touching_share = 0.05;  // of a grain's surface or nodes
 constexpr double bonds_of_grain = 6;     // in a dense packing
 
-double contact_stiffness(const ContactConfig& contact, double normal_stiffness, bool capped,
+double contact_stiffness(const ContactConfig& contact, double node_stiffness, bool capped,
                          const ShapeSummary& shape) {
   if (contact.law == ContactLawKind::area) {
-    return normal_stiffness * touching_share * shape.node_area;
+    return node_stiffness * touching_share * shape.node_area;
   }
   if (contact.law == ContactLawKind::hertz) {
     PairContext context;
@@ -26,7 +26,7 @@ double contact_stiffness(const ContactConfig& contact, double normal_stiffness, 
   }
   const double nodes = capped ? static_cast<double>(*contact.node_cap)
                               : touching_share * static_cast<double>(shape.outline.nodes);
-  return normal_stiffness * std::max(nodes, 1.0);
+  return node_stiffness * std::max(nodes, 1.0);
 }
 
 double bond_stiffness(const BondLaw& cement, const ShapeSummary& shape) {
@@ -39,15 +39,16 @@ double bond_stiffness(const BondLaw& cement, const ShapeSummary& shape) {
 
 TimeStepChoice choose_time_step(const SceneConfig& scene, std::span<const GrainState> grains,
                                 std::span<const ShapeSummary> shapes) {
-  double normal_stiffness = scene.contact.normal_stiffness;
+  double largest = std::max(scene.contact.normal_stiffness, scene.contact.shear_stiffness);
   for (const WallConfig& wall : scene.walls) {
-    normal_stiffness = std::max(normal_stiffness, wall.normal_stiffness.value_or(0));
+    largest =
+        std::max({largest, wall.normal_stiffness.value_or(0), wall.shear_stiffness.value_or(0)});
   }
   const bool capped = scene.contact.node_cap && scene.walls.empty();  // walls know no cap
   const std::optional<BondLaw> cement = make_bond_law(scene);
   std::vector<double> stiffness;
   for (const ShapeSummary& shape : shapes) {
-    stiffness.push_back(contact_stiffness(scene.contact, normal_stiffness, capped, shape));
+    stiffness.push_back(contact_stiffness(scene.contact, largest, capped, shape));
     if (cement) stiffness.back() += bonds_of_grain * bond_stiffness(*cement, shape);
   }
   TimeStepChoice choice;
