@@ -17,10 +17,11 @@
 #include <utility>
 #include <variant>
 
-#include "reckon/avatar/text_reader.hpp"
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/write_failure.hpp"
+#include "reckon/text/nearest_name.hpp"
+#include "reckon/text/text_reader.hpp"
 
 namespace reckon {
 namespace {

@@ -86,6 +86,10 @@ void describe(Visitor& v, WallConfig& wall, const SceneConfig& scene) {
             .standard = "material.friction",
             .meaning = "Coulomb coefficient between this wall and grains."},
            wall.friction);
+  v.rule(scene.contact.law != ContactLawKind::hertz ||
+             !(v.given("normal_stiffness") || v.given("shear_stiffness")),
+         {"normal_stiffness", "shear_stiffness"}, "with law `hertz` walls are rigid: no stiffness",
+         "Leave it out, or choose the law `area`.");
   v.number({.name = "normal_stiffness",
             .unit = unit,
             .range = above(0),
@@ -100,10 +104,6 @@ void describe(Visitor& v, WallConfig& wall, const SceneConfig& scene) {
             .unit_note = note,
             .meaning = "Stiffness of the shear springs on this wall."},
            wall.shear_stiffness);
-  v.rule(scene.contact.law != ContactLawKind::hertz ||
-             !(wall.normal_stiffness || wall.shear_stiffness),
-         {"normal_stiffness", "shear_stiffness"}, "with law `hertz` walls are rigid: no stiffness",
-         "Leave it out, or choose the law `area`.");
   v.flag({.name = "dashpot",
           .meaning = "Whether `contact.restitution` also damps contacts with this wall."},
          wall.dashpot);

@@ -20,6 +20,9 @@ namespace {
 constexpr double coarse_rounding = 1e-6;
 constexpr double useless_rounding = 1e-3;
 
+constexpr double lightest = 10;  // foams [kg/m^3]
+constexpr double roughest = 5;   // of friction
+
 /// How far things may move in one step, as a share of the smallest grain's radius.
 constexpr double long_path = 0.1;
 constexpr double large_turn = 0.1;  // in one step [rad]
@@ -61,6 +64,7 @@ ScaleCheck::ScaleCheck(const LoadedScene& scene, double time_step, Fault fault, 
 }
 
 void ScaleCheck::run() {
+  check_material();
   check_coordinates();
   check_speeds();
   check_walls();
@@ -83,6 +87,23 @@ void ScaleCheck::check_coordinate(const std::string& key, const std::string& wha
         fmt::format("{} at {:.3g} m is rounded to {:.2g} of the smallest grain's radius, which "
                     "is coarse for the overlap of a contact; move the scene near the origin",
                     what, coordinate, rounding));
+  }
+}
+
+void ScaleCheck::check_material() {
+  const double density = scene_.config.material.density;
+  if (density < lightest) {
+    warn_(
+        fmt::format("a density of {:g} kg/m^3 is less than that of any solid; if g/cm^3 was "
+                    "meant, write \"{:g} g/cm^3\"",
+                    density, density));
+  }
+  const double friction = scene_.config.material.friction;
+  if (friction > roughest) {
+    warn_(
+        fmt::format("a coefficient of friction of {:g} is far above any measured; if an angle in "
+                    "degrees was meant, write its tangent",
+                    friction));
   }
 }
 

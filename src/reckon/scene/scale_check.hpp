@@ -12,8 +12,8 @@
 namespace reckon {
 
 /// Sizes, speeds and periods of a scene against what the computation resolves: the spacing of
-/// double-precision numbers, the time step, the mesh of the membrane. What cannot give a right
-/// answer is a fault; what may not is a warning.
+/// double-precision numbers, the time step, the mesh of the membrane, the densities of solids. What
+/// cannot give a right answer is a fault; what may not is a warning.
 class ScaleCheck {
  public:
   /// Key, problem, fix.
@@ -26,6 +26,7 @@ class ScaleCheck {
   void run();
 
  private:
+  void check_material();
   void check_coordinates();
   void check_speeds();
   void check_walls();

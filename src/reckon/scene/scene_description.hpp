@@ -71,6 +71,12 @@ void describe(Visitor& v, ContactConfig& contact) {
   const std::string_view unit = contact.law == ContactLawKind::area ? "N/m^3" : "N/m";
   constexpr std::string_view note = "N/m^3 (law area), N/m (law linear)";
   const bool is_hertz = contact.law == ContactLawKind::hertz;
+  v.rule(!is_hertz || !(v.given("normal_stiffness") || v.given("shear_stiffness")),
+         {"normal_stiffness", "shear_stiffness"},
+         "law `hertz` takes no stiffness but `young_modulus` and `poisson_ratio`",
+         "Write `young_modulus = \"70 GPa\"` and `poisson_ratio = 0.25`, say, instead of it; or "
+         "choose "
+         "the law `area`.");
   if (v.visits(!is_hertz)) {
     v.number({.name = "normal_stiffness",
               .unit = unit,
@@ -88,12 +94,6 @@ void describe(Visitor& v, ContactConfig& contact) {
               .meaning = "Stiffness of the shear springs, in the same measure."},
              contact.shear_stiffness);
   }
-  v.rule(!is_hertz || !(v.given("normal_stiffness") || v.given("shear_stiffness")),
-         {"normal_stiffness", "shear_stiffness"},
-         "law `hertz` takes no stiffness but `young_modulus` and `poisson_ratio`",
-         "Write `young_modulus = \"70 GPa\"` and `poisson_ratio = 0.25`, say, instead of it; or "
-         "choose "
-         "the law `area`.");
   if (v.visits(is_hertz)) {
     v.number({.name = "young_modulus",
               .unit = "Pa",

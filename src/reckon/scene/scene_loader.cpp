@@ -128,7 +128,7 @@ class Loader {
     };
     std::vector<GrainState> placed;
     if (const auto* fill = std::get_if<FillPlacement>(&set.placement)) {
-      if (has_fault_below(path)) return;
+      if (has_fault_below(path) || has_syntax_fault()) return;
       attempt(path + ".fill", [&] {
         require_memory(2 * sizeof(GrainState) * std::uint64_t{fill->count},
                        fmt::format("{} grains", fill->count), "Lower the count.");
@@ -270,6 +270,12 @@ class Loader {
   [[nodiscard]] bool has_fault_below(const std::string& path) const {
     return std::any_of(reading_.faults.begin(), reading_.faults.end(),
                        [&](const SceneFault& fault) { return fault.key.starts_with(path); });
+  }
+
+  /// Lines that are no TOML have been left out: what they say is not known.
+  [[nodiscard]] bool has_syntax_fault() const {
+    return std::any_of(reading_.faults.begin(), reading_.faults.end(),
+                       [](const SceneFault& fault) { return fault.key.empty(); });
   }
 
   void fault(std::string key, std::string problem, std::string fix) {

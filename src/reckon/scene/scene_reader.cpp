@@ -29,25 +29,6 @@
 namespace reckon {
 namespace {
 
-std::string kind_of(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::array:
-      return "an array";
-    case toml::node_type::string:
-      return "a text";
-    case toml::node_type::integer:
-      return "a whole number";
-    case toml::node_type::floating_point:
-      return "a number";
-    case toml::node_type::boolean:
-      return "true or false";
-    default:
-      return "a date or time";
-  }
-}
-
 std::string in_unit(const SceneKey& key) {
   return key.unit == "1" ? "a number" : fmt::format("a number [{}]", key.unit);
 }
@@ -64,7 +45,7 @@ class Reader {
   void finish() { report_unknown_keys(); }
 
   void number(const SceneKey& key, double& value) {
-    if (const toml::node* node = find(key)) {
+    if (const toml::node* node = find(key); node && !faulty(key.name)) {
       if (const auto read = to_number(key, *node)) value = *read;
     }
   }
@@ -265,14 +246,16 @@ class Reader {
   void rule(bool kept, std::initializer_list<std::string_view> names, std::string_view statement,
             std::string_view fix = {}) {
     std::string_view last;
+    std::vector<std::string_view> there;
     for (const std::string_view name : names) {
       if (faulty(name)) return;
       if (!given(name)) continue;
+      there.push_back(name);
       if (last.empty() || key_position(name) > key_position(last)) last = name;
     }
     if (kept || last.empty()) return;
     fault_at(key_position(last), path_of(last), std::string{statement}, std::string{fix});
-    frames_.back().faulty.insert(std::string{last});
+    frames_.back().faulty.insert(there.begin(), there.end());
   }
 
   [[nodiscard]] bool visits(bool) const { return true; }
@@ -447,10 +430,15 @@ class Reader {
 }  // namespace
 
 std::string describe(const SceneFault& fault, const std::string& file) {
+  // A key or a value may be as long as the file.
+  const auto shortened = [](const std::string& text) {
+    constexpr std::size_t longest = 1000;
+    return text.size() <= longest ? text : text.substr(0, longest) + "...";
+  };
   std::string out = fmt::format("{}:{}:{}: ", file, fault.position.line, fault.position.column);
-  if (!fault.key.empty()) out += fault.key + ": ";
-  out += fault.problem;
-  if (!fault.fix.empty()) out += ". " + fault.fix;
+  if (!fault.key.empty()) out += shortened(fault.key) + ": ";
+  out += shortened(fault.problem);
+  if (!fault.fix.empty()) out += ". " + shortened(fault.fix);
   return out;
 }
 

@@ -22,6 +22,16 @@ std::string with_small_initial(std::string_view text) {
   return out;
 }
 
+/// On what the parser itself says.
+std::string advice_on_description(std::string_view problem) {
+  const auto says = [&](std::string_view part) { return problem.find(part) != problem.npos; };
+  if (says("invalid utf-8")) return "Save the file as UTF-8.";
+  if (says("unknown escape sequence")) {
+    return "A backslash in \"...\" begins an escape: write /, or put the text between ' and '.";
+  }
+  return {};
+}
+
 /// Where a line, counted from 1, begins and ends.
 struct LineRange {
   std::size_t begin;
@@ -92,10 +102,33 @@ class KeyDepth {
 
 }  // namespace
 
+std::string kind_of(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "a whole number";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    default:
+      return "a date or time";
+  }
+}
+
 TomlSyntax parse_toml(std::string text) {
   TomlSyntax syntax;
   if (text.find('\0') != std::string::npos) {
-    syntax.faults.push_back({{}, {}, "this is not a text", "Give a scene, a text in TOML."});
+    const bool is_utf16 = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+    syntax.faults.push_back({{},
+                             {},
+                             is_utf16 ? "this text is in UTF-16" : "this is not a text",
+                             is_utf16 ? "Save it as UTF-8." : "Give a scene, a text in TOML."});
     return syntax;
   }
   // The parser nests a table for each part of a key and frees them by recursion.
@@ -120,8 +153,12 @@ TomlSyntax parse_toml(std::string text) {
     }
     const std::optional<LineRange> line = find_line(text, last_line);
     if (!line) return syntax;
-    syntax.faults.back().fix =
-        advice_on_toml_line(std::string_view{text}.substr(line->begin, line->end - line->begin));
+    SceneFault& fault = syntax.faults.back();
+    fault.fix = advice_on_description(fault.problem);
+    if (fault.fix.empty()) {
+      fault.fix =
+          advice_on_toml_line(std::string_view{text}.substr(line->begin, line->end - line->begin));
+    }
     const std::size_t first = text.find_first_not_of(" \t", line->begin);
     header_lost = header_lost || (first < line->end && text[first] == '[');
     std::fill(text.begin() + static_cast<std::ptrdiff_t>(line->begin),

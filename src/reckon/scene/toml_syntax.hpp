@@ -24,6 +24,9 @@ struct TomlSyntax {
 /// the line was a table's header, `root` is of no use: its keys would seem to be another table's.
 [[nodiscard]] TomlSyntax parse_toml(std::string text);
 
+/// "a table", "a whole number": what a value is, for messages.
+[[nodiscard]] std::string kind_of(const toml::node& node);
+
 [[nodiscard]] inline SourcePosition position_of(const toml::source_region& region) {
   return {region.begin.line, region.begin.column};
 }

@@ -143,6 +143,44 @@ std::string advice_on_key(std::string_view bare) {
   return {};
 }
 
+/// On `True`, `yes` and the like.
+std::string advice_on_flag(std::string_view word) {
+  const std::string small = in_small_letters(word);
+  if ((small == "true" || small == "false") && small != word) {
+    return fmt::format("Write {} in small letters.", small);
+  }
+  if (small == "yes" || small == "on") return "Write true.";
+  if (small == "no" || small == "off") return "Write false.";
+  return {};
+}
+
+/// The same anywhere in a line: `box = { open_top = True }`.
+std::string advice_on_flag_within(std::string_view bare) {
+  for (std::size_t at = bare.find('='); at < bare.size(); at = bare.find('=', at + 1)) {
+    const std::size_t begin = std::min(bare.find_first_not_of(" \t", at + 1), bare.size());
+    const std::size_t end = std::min(bare.find_first_of(" \t,}]", begin), bare.size());
+    if (std::string advice = advice_on_flag(bare.substr(begin, end - begin)); !advice.empty()) {
+      return advice;
+    }
+  }
+  return {};
+}
+
+/// On signs that TOML does not have: a minus of a word processor, `//` and `;`.
+std::string advice_on_signs(std::string_view bare) {
+  for (const std::string_view minus : {"\u2212", "\u2013"}) {
+    if (bare.find(minus) != std::string_view::npos) return "Write a plain minus, -.";
+  }
+  for (const std::string_view blank : {"\u00a0", "\u2009", "\u202f"}) {
+    if (bare.find(blank) != std::string_view::npos) return "Write plain blanks.";
+  }
+  if (bare.find("//") != std::string_view::npos && bare.find('"') > bare.find("//")) {
+    return "A comment begins with #.";
+  }
+  if (bare.ends_with(';')) return "Leave out the `;` at the end of the line.";
+  return {};
+}
+
 std::string advice_on_value(std::string_view value) {
   if (value.empty()) return "Write a value behind the `=`.";
   const std::size_t sign = value[0] == '+' || value[0] == '-' ? 1 : 0;
@@ -163,12 +201,6 @@ std::string advice_on_value(std::string_view value) {
   if (value.find_first_of(starts_with_digit ? "(*/" : "(") != std::string_view::npos) {
     return "A scene calculates nothing: write the result as a number.";
   }
-  const std::string small = in_small_letters(value);
-  if (small == "true" || small == "false") {
-    return fmt::format("Write {} in small letters.", small);
-  }
-  if (small == "yes" || small == "on") return "Write true.";
-  if (small == "no" || small == "off") return "Write false.";
   const bool may_be_text =
       is_letter(value[0]) || std::string_view{"./~"}.find(value[0]) != std::string_view::npos;
   if (may_be_text && value.find_first_of("[]{}\"'=") == std::string_view::npos) {
@@ -251,7 +283,14 @@ std::string advice_on_whole_number(std::string_view written) {
     return fmt::format("Write {:.0f}.", *whole_value(grouped));
   }
   if (std::string advice = advice_on_number(text); !advice.empty()) return advice;
-  if (const auto value = whole_value(text)) return fmt::format("Write {:.0f}.", *value);
+  if (const auto value = whole_value(text)) {
+    const auto point = text.find('.');  // "1.000" is one here and a thousand elsewhere
+    const std::string_view digits = text.substr(0, point);
+    const bool thousands = point != std::string_view::npos && text.substr(point + 1) == "000" &&
+                           digits.find_first_of("123456789") != std::string_view::npos;
+    return thousands ? fmt::format("Write {0} or {0}000.", digits)
+                     : fmt::format("Write {:.0f}.", *value);
+  }
   for (const auto& [suffix, factor] : {std::pair{"k", 1e3}, std::pair{"M", 1e6}}) {
     if (!text.ends_with(suffix)) continue;
     if (const auto value = whole_value(text.substr(0, text.size() - 1))) {
@@ -291,6 +330,7 @@ std::string advice_on_toml_line(std::string_view line) {
   if (bare.starts_with('[')) {
     if (std::string advice = advice_on_header(bare); !advice.empty()) return advice;
   }
+  if (std::string advice = advice_on_signs(bare); !advice.empty()) return advice;
   if (const auto quantity = unquoted_quantity(bare)) {
     return fmt::format("A number with a unit stands in quotation marks: write \"{}\".", *quantity);
   }
@@ -302,6 +342,7 @@ std::string advice_on_toml_line(std::string_view line) {
     std::replace(joined.begin(), joined.end(), ' ', '_');
     if (all_words(joined)) return fmt::format("A key has no blanks: write `{}`.", joined);
   }
+  if (std::string advice = advice_on_flag_within(bare); !advice.empty()) return advice;
   return advice_on_value(stripped(bare.substr(equals + 1)));
 }
 

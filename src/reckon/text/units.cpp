@@ -69,6 +69,21 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+/// `text` with plain signs in place of those that word processors set: blanks that do not break a
+/// line, a minus, dots between units.
+std::string with_plain_signs(std::string_view text) {
+  std::string out{text};
+  for (const auto& [sign, plain] :
+       {std::pair{"\u00a0", ' '}, std::pair{"\u2009", ' '}, std::pair{"\u202f", ' '},
+        std::pair{"\u2212", '-'}, std::pair{"\u00b7", '*'}, std::pair{"\u22c5", '*'}}) {
+    const std::string_view found{sign};
+    for (std::size_t at = out.find(found); at != std::string::npos; at = out.find(found, at)) {
+      out.replace(at, found.size(), 1, plain);
+    }
+  }
+  return out;
+}
+
 std::optional<Unit> find_symbol(std::string_view name) {
   // Whole names first: "min" is minutes, not milli-"in", and "Pa" no prefix at all.
   for (const Symbol& symbol : symbols) {
@@ -201,10 +216,11 @@ Quantity read_quantity(std::string_view text) {
 }  // namespace
 
 Quantity parse_quantity(std::string_view text) {
+  const std::string plain = with_plain_signs(text);
   try {
-    return read_quantity(text);
+    return read_quantity(plain);
   } catch (const Error&) {
-    const std::string advice = advice_on_number(text);
+    const std::string advice = advice_on_number(plain);
     if (advice.empty()) throw;
     refuse(quoted(text) + " cannot be read", advice);
   }

@@ -8,6 +8,7 @@
 
 #include "reckon/core/peak_memory.hpp"
 #include "reckon/run/run_plan.hpp"
+#include "reckon/simulation/time_step.hpp"
 #include "unit/run/run_scene_fixture.hpp"
 
 namespace reckon {
@@ -223,6 +224,40 @@ history_interval = 1000
   EXPECT_GE(read_history(folder.history()).rows.size(), 2U);
   // In a mesh that holds it, the same grain stays inside.
   EXPECT_EQ(run(with(text, "3.5 mm", "0.5 mm"), {.folder = root_ / "fine"}).end, RunEnd::complete);
+}
+
+TEST_F(StartCheckTest, NumbersOfOtherUnitsAreSaid) {
+  const std::string sound = scene(places("{position=[0,0,0]}"));
+  EXPECT_EQ(warnings_of(sound), Texts{});
+  const Texts light = warnings_of(sound + "[material]\ndensity = 2.65\n");
+  ASSERT_EQ(light.size(), 1U);
+  expect_parts(light[0], {"2.65 kg/m^3 is less than that of any solid", "write \"2.65 g/cm^3\""});
+  const Texts rough = warnings_of(sound + "[material]\nfriction = 30\n");
+  ASSERT_EQ(rough.size(), 1U);
+  expect_parts(rough[0], {"friction of 30", "write its tangent"});
+}
+
+/// A spring across the contact swings like one along it, so the stiffest of all sets the time step.
+TEST_F(StartCheckTest, TheTimeStepFollowsTheStiffestSpring) {
+  const auto step_of = [&](const std::string& stiffness) {
+    SceneReading reading = read(
+        with(scene(places("{position=[0,0,0]}")), "restitution = 0.5",
+             "restitution = 0.5\n" + stiffness) +
+        "[[wall]]\nname = \"floor\"\nplane = {point = [0, 0, \"-1 cm\"], normal = [0, 0, 1]}\n");
+    const LoadedScene loaded = load_scene(reading);
+    return choose_time_step(loaded.config, loaded.grains, loaded.shapes).step;
+  };
+  const double usual_step = step_of("");
+  EXPECT_EQ(step_of("shear_stiffness = \"1e9 N/m^3\""), usual_step);
+  EXPECT_NEAR(step_of("shear_stiffness = \"8e9 N/m^3\""), 0.5 * usual_step, 1e-12 * usual_step);
+}
+
+TEST_F(StartCheckTest, ATextWithFaultsOfSyntaxIsNotFilled) {
+  const auto faults = faults_of(
+      scene("fill = { count = 20, box = {\nlow = [0, 0, 0],\nhigh = [6 mm, 6 mm, 6 mm] } }"));
+  for (const std::string& fault : faults) {
+    EXPECT_EQ(fault.find("do not fit"), std::string::npos) << fault;
+  }
 }
 
 TEST_F(StartCheckTest, SizesThatNoMachineHasAreRefusedBeforeTheyAreMade) {

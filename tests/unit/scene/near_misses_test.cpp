@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/text/near_misses.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
+#include <algorithm>
 #include <string>
 
 #include "reckon/core/error.hpp"
 #include "reckon/scene/scene_reader.hpp"
 #include "reckon/text/units.hpp"
-#include "support/test_path.hpp"
+#include "unit/scene/scene_text_fixture.hpp"
 
 namespace reckon {
 namespace {
@@ -88,6 +88,13 @@ TEST(NearMisses, LinesThatAreNotToml) {
             "A scene calculates nothing: write the result as a number.");
   EXPECT_EQ(advice_on_toml_line("x = 1/3"),
             "A scene calculates nothing: write the result as a number.");
+  EXPECT_EQ(advice_on_toml_line("x = 20 // twenty"), "A comment begins with #.");
+  EXPECT_EQ(advice_on_toml_line("x = 20;"), "Leave out the `;` at the end of the line.");
+  EXPECT_EQ(advice_on_toml_line("x = [0, 0, \u22129.81]"), "Write a plain minus, -.");
+  EXPECT_EQ(advice_on_toml_line("x = 2\u00a0650"), "Write plain blanks.");
+  EXPECT_EQ(advice_on_toml_line("box = { low = [0, 0, 0], open_top = True }"),
+            "Write true in small letters.");
+  EXPECT_EQ(advice_on_toml_line("box = { open_top = yes, low = [0, 0, 0] }"), "Write true.");
   EXPECT_EQ(advice_on_toml_line("x ="), "Write a value behind the `=`.");
   EXPECT_EQ(advice_on_toml_line("position: [0, 0, 0]"),
             "A key and its value are joined by `=`: write `position = [0, 0, 0]`.");
@@ -107,19 +114,9 @@ TEST(NearMisses, LinesThatAreNotToml) {
 }
 
 /// The messages of `check` for lines below a valid scene.
-class NearMissesInScenes : public ::testing::Test {
+class NearMissesInScenes : public testing::SceneTextTest {
  protected:
-  void SetUp() override {
-    directory_ = testing::test_path();
-    std::filesystem::create_directories(directory_);
-    std::ofstream{directory_ / "sand.h5"};
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
   [[nodiscard]] std::string said_of(const std::string& lines) const {
-    const std::string sound =
-        "contact.normal_stiffness = 1e9\ntime.steps = 10\n"
-        "grains = [{ library = 'sand.h5', place = [{ position = [0, 0, 0] }] }]\n";
     return said_of_whole(sound + lines);
   }
   [[nodiscard]] std::string said_of_whole(const std::string& text) const {
@@ -129,13 +126,37 @@ class NearMissesInScenes : public ::testing::Test {
     }
     return said;
   }
-  std::filesystem::path directory_;
 };
 
 TEST_F(NearMissesInScenes, AQuantityWithoutQuotationMarks) {
   EXPECT_EQ(said_of("membrane.spacing = 0.2 mm\n"),
             ":4:24: error while parsing key-value pair: expected a comment or whitespace, saw 'm'. "
             "A number with a unit stands in quotation marks: write \"0.2 mm\".\n");
+}
+
+TEST_F(NearMissesInScenes, SignsOfWordProcessors) {
+  EXPECT_EQ(said_of("body.gravity = [0, 0, '\u22129.81\u00a0m\u00b7s^-2']\n"), "");
+  EXPECT_EQ(said_of("material.density = '2\u202f650 kg/m^3'\n"),
+            ":4:20: material.density: expected a number [kg/m^3], but \"2\u202f650 kg/m^3\" cannot "
+            "be read. Write 2650 kg/m^3, without signs between the digits.\n");
+}
+
+TEST_F(NearMissesInScenes, TextsInOtherEncodingsAndWithBackslashes) {
+  EXPECT_EQ(said_of("title = 'K\xf6rner'\n"),
+            ":4:11: encountered invalid utf-8 sequence. Save the file as UTF-8.\n");
+  EXPECT_EQ(said_of_whole(std::string{"\xff\xfex\0", 4}),
+            ":1:1: this text is in UTF-16. Save it as UTF-8.\n");
+  EXPECT_NE(said_of("title = \"C:\\sand\"\n").find("write /, or put the text between ' and '"),
+            std::string::npos);
+}
+
+TEST_F(NearMissesInScenes, NamesOfPapersAndTables) {
+  EXPECT_EQ(said_of("material.mu = 0.5\n"),
+            ":4:10: material.mu: unknown key. Did you mean `friction`?\n");
+  EXPECT_EQ(said_of("time.dt = 1e-6\n"), ":4:6: time.dt: unknown key. Did you mean `step`?\n");
+  EXPECT_EQ(said_of("output.material = 'quartz'\n"),
+            ":4:8: output.material: unknown key. `material` belongs at the top: write "
+            "[material].\n");
 }
 
 TEST_F(NearMissesInScenes, MaterialAmongTheGrains) {
@@ -205,6 +226,15 @@ TEST_F(NearMissesInScenes, AStiffnessForHertz) {
       ":1:50: contact.normal_stiffness: law `hertz` takes no stiffness but `young_modulus` and "
       "`poisson_ratio`. Write `young_modulus = \"70 GPa\"` and `poisson_ratio = 0.25`, say, "
       "instead of it; or choose the law `area`.\n");
+  for (const char* stiffness : {"'1e9 N/m^3'", "'1e9 N/m'", "'stiff'"}) {
+    const std::string said = said_of_whole(
+        fmt::format("contact = {{ law = 'hertz', young_modulus = 7e10, normal_stiffness = {}, "
+                    "shear_stiffness = 1 }}\n",
+                    stiffness) +
+        rest);
+    EXPECT_NE(said.find("law `hertz` takes no stiffness"), std::string::npos) << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  }
 }
 
 TEST_F(NearMissesInScenes, AKeyThatIsTheEndOfALongerOne) {

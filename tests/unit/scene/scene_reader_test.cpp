@@ -14,21 +14,13 @@
 #include "reckon/core/error.hpp"
 #include "reckon/scene/scene_schema.hpp"
 #include "reckon/scene/scene_writer.hpp"
-#include "support/test_path.hpp"
+#include "unit/scene/scene_text_fixture.hpp"
 
 namespace reckon {
 namespace {
 
-/// A folder with an empty shape library in it, so that scenes can name one.
-class SceneReaderTest : public ::testing::Test {
+class SceneReaderTest : public testing::SceneTextTest {
  protected:
-  void SetUp() override {
-    directory_ = testing::test_path();
-    std::filesystem::create_directories(directory_);
-    std::ofstream{directory_ / "sand.h5"};
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
   [[nodiscard]] SceneReading read(const std::string& text) const {
     return read_scene_text(text, directory_);
   }
@@ -45,12 +37,6 @@ class SceneReaderTest : public ::testing::Test {
   [[nodiscard]] std::vector<std::string> faults_below(const std::string& lines) const {
     return faults(std::string{sound} + lines);
   }
-
-  static constexpr const char* sound =
-      "contact.normal_stiffness = 1e9\n"
-      "time.steps = 10\n"
-      "grains = [{ library = 'sand.h5', place = [{ position = [0, 0, 0] }] }]\n";
-  std::filesystem::path directory_;
 };
 
 using Faults = std::vector<std::string>;
