@@ -39,6 +39,17 @@ Quantity parse_of_option(const std::string& option, std::string_view text) {
   }
 }
 
+/// What stands between commas.
+std::vector<std::string_view> parts_of(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
 double parse_positive_number(const std::string& option, std::string_view text) {
   const Quantity quantity = parse_of_option(option, text);
   if (quantity.dimension != Dimension{} || !(quantity.value > 0)) {
@@ -59,22 +70,41 @@ double parse_length(const std::string& option, std::string_view text) {
     refuse(option, fmt::format("'{}' is not a length above zero", text), {},
            "Give a length such as 0.2mm.");
   }
+  // Far beyond these, volumes and moments of inertia are no numbers any more.
+  constexpr double shortest = 1e-12;
+  constexpr double longest = 1e6;
+  if (quantity.value < shortest || quantity.value > longest) {
+    refuse(option, fmt::format("'{}' is no length of a grain", text),
+           fmt::format("lengths go from {:g} to {:g} m", shortest, longest), "Check its unit.");
+  }
   return quantity.value;
 }
 
 std::vector<double> parse_lengths(const std::string& option, std::string_view text,
                                   std::size_t count, std::size_t total) {
+  const std::vector<std::string_view> parts = parts_of(text);
+  if (parts.size() != total) {
+    refuse(option, fmt::format("'{}' has {} numbers", text, parts.size()),
+           fmt::format("{} {} needed", total, total == 1 ? "is" : "are"),
+           "Commas separate numbers: decimals have a point, as in 0.5mm.");
+  }
   std::vector<double> values;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string_view part = text.substr(begin, end - begin);
+  values.reserve(total);
+  for (const std::string_view part : parts) {
     values.push_back(values.size() < count ? parse_length(option, part)
                                            : parse_positive_number(option, part));
-    begin = end + 1;
   }
-  if (values.size() != total) {
-    refuse(option, fmt::format("'{}' has {} numbers", text, values.size()),
-           fmt::format("{} are needed", total), "Separate them by commas, without blanks.");
+  return values;
+}
+
+std::vector<double> parse_numbers(const std::string& option, std::string_view text) {
+  std::vector<double> values;
+  for (const std::string_view part : parts_of(text)) {
+    const Quantity quantity = parse_of_option(option, part);
+    if (quantity.dimension != Dimension{}) {
+      refuse(option, fmt::format("'{}' is not a number", part), {}, "Give it without unit.");
+    }
+    values.push_back(quantity.value);
   }
   return values;
 }
@@ -142,8 +172,8 @@ void add_grains_command(CLI::App& app, const CommandWords& words) {
   add_grains_legacy(*grains, words);
   add_grains_info(*grains);
   add_grains_export(*grains);
-  add_grains_scan(*grains);
-  add_grains_from_scan(*grains);
+  add_grains_scan(*grains, words);
+  add_grains_from_scan(*grains, words);
   add_grains_moved(*grains);
   add_grains_statistics(*grains);
 }

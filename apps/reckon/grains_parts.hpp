@@ -21,8 +21,8 @@ void add_grains_sources(CLI::App& grains, const CommandWords& words);
 void add_grains_legacy(CLI::App& grains, const CommandWords& words);
 void add_grains_info(CLI::App& grains);
 void add_grains_export(CLI::App& grains);
-void add_grains_scan(CLI::App& grains);
-void add_grains_from_scan(CLI::App& grains);
+void add_grains_scan(CLI::App& grains, const CommandWords& words);
+void add_grains_from_scan(CLI::App& grains, const CommandWords& words);
 void add_grains_moved(CLI::App& grains);
 void add_grains_statistics(CLI::App& grains);
 
@@ -32,6 +32,8 @@ void add_grains_statistics(CLI::App& grains);
 /// `count` lengths separated by commas, and after them pure numbers up to `total`.
 [[nodiscard]] std::vector<double> parse_lengths(const std::string& option, std::string_view text,
                                                 std::size_t count, std::size_t total);
+/// Numbers without a unit, separated by commas.
+[[nodiscard]] std::vector<double> parse_numbers(const std::string& option, std::string_view text);
 /// How many metres a unit of length such as "mm" has.
 [[nodiscard]] double parse_length_unit(const std::string& option, const std::string& text);
 

@@ -21,6 +21,7 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/parallel/threads.hpp"
+#include "reckon/text/free_memory.hpp"
 #include "reckon/text/human.hpp"
 #include "thread_limit.hpp"
 
@@ -73,6 +74,23 @@ ShapeResolution resolution_of(const MakeOptions& options) {
   return resolution;
 }
 
+/// Grids and nodes are refused before they fill the memory. What a node takes, with what spreads
+/// the nodes over the surface, was measured.
+void require_memory_for(const ShapeResolution& resolution) {
+  constexpr std::uint64_t bytes_of_node = 2600;
+  constexpr std::uint64_t bytes_of_voxel = 2 * sizeof(double);
+  constexpr double grid_over_diameter = 1.4;
+  if (resolution.node_count) {
+    require_memory(bytes_of_node * *resolution.node_count,
+                   fmt::format("{} nodes on a grain", *resolution.node_count), "Lower --nodes.");
+  }
+  if (resolution.voxel_size) return;  // the size of the grains is not known yet
+  const double edge = grid_over_diameter * resolution.voxels_per_diameter;
+  require_memory(static_cast<std::uint64_t>(edge * edge * edge) * bytes_of_voxel,
+                 fmt::format("a grid of {:g} voxels per diameter", resolution.voxels_per_diameter),
+                 "Lower --voxels-per-diameter.");
+}
+
 /// Prints the faults of some of the sources. That of a single one is thrown instead.
 void report_faults(const std::vector<Error>& faults, std::size_t sources,
                    const std::string& library) {
@@ -88,7 +106,10 @@ void make(const std::vector<ShapeSource>& sources, const MakeOptions& options,
           const Provenance& provenance) {
   if (options.threads > 0) set_thread_count(options.threads);
   const ShapeResolution resolution = resolution_of(options);
-  (void)PendingFile{options.output};  // finds a missing folder before the work, not after it
+  // What forbids the output is found before the work, not after it.
+  (void)PendingFile{options.output};
+  require_replaceable_library(options.output);
+  require_memory_for(resolution);
   double seconds = 0;
   std::vector<Error> faults;
   {

@@ -131,7 +131,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
   add_bench_command(app);
   add_reference_command(app);
   app.footer(std::string{"`reckon COMMAND --help` has examples.\n\n"} + exit_code_footer);
-  refuse_odd_numbers(app);
+  refuse_odd_values(app);
   try {
     require_run_command(ranks, argc, argv);
     require_known_command(app, argc, argv);

@@ -160,6 +160,12 @@ std::string fault_of_number(const std::string& given) {
   return with_advice(fmt::format("{} is not a number", given), advice);
 }
 
+/// "--out --quiet" names no folder.
+std::string fault_of_value(const std::string& given) {
+  if (!given.starts_with("--")) return {};
+  return fmt::format("needs a value, and {} is none. A name that begins so: ./{}", given, given);
+}
+
 std::string fault_of_count(const std::string& given, bool may_be_negative) {
   if (is_whole_number(given) && given[0] == '-' && !may_be_negative) {
     return fmt::format("{} is not a whole number from 0 on", given);
@@ -170,8 +176,12 @@ std::string fault_of_count(const std::string& given, bool may_be_negative) {
 
 }  // namespace
 
-void refuse_odd_numbers(CLI::App& root) {
+void refuse_odd_values(CLI::App& root) {
   for (CLI::Option* option : root.get_options([](const CLI::Option*) { return true; })) {
+    if (!option->get_lnames().empty() && option->get_items_expected_max() > 0) {
+      option->transform(
+          CLI::Validator{[](std::string& given) { return fault_of_value(given); }, ""});
+    }
     const std::string type = option->get_type_name();
     const std::string name = type.substr(0, type.find(':'));
     // `transform` puts a check before those that the option has; nothing is changed.
@@ -185,7 +195,7 @@ void refuse_odd_numbers(CLI::App& root) {
     }
   }
   for (CLI::App* command : root.get_subcommands([](const CLI::App*) { return true; })) {
-    refuse_odd_numbers(*command);
+    refuse_odd_values(*command);
   }
 }
 

@@ -15,7 +15,7 @@ namespace reckon::app {
 
 /// Checks numbers before CLI11 does: no option takes NaN or a negative count, and what is nearly a
 /// number is refused with the number to write.
-void refuse_odd_numbers(CLI::App& root);
+void refuse_odd_values(CLI::App& root);
 /// Throws Error for a command that does not exist, with the one that was probably meant.
 void require_known_command(const CLI::App& root, int argc, char** argv);
 /// The message for a command line that CLI11 refused.

@@ -201,6 +201,9 @@ void run(const Options& options, const Communicator& ranks, bool launched) {
   if (options.json && ranks.is_root()) {
     print_json(report, input.scene.config, run_options.folder);
   }
+  if (options.quiet && !options.json && ranks.is_root() && !report.verdict.valid()) {
+    std::fputs(printable(verdict_text(report.verdict)).c_str(), stderr);
+  }
   if (quiet) return;
   if (report.end == RunEnd::nothing_to_do) {
     say(verdict_text(report.verdict));
@@ -237,7 +240,8 @@ void add_run_command(CLI::App& app, const Communicator& ranks, bool launched) {
                    "Wall-clock minutes between checkpoints besides the scene's; 0: none")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->add_flag("--quiet", options->quiet,
+                    "Print nothing but errors, and why figures mean nothing");
   command->add_flag("--json", options->json, "At the end, answer in JSON, and print nothing else");
   command->footer(
       std::string{

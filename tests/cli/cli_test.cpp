@@ -439,39 +439,6 @@ TEST_F(CliTest, TheTableOfCommandsIsTrue) {
   EXPECT_EQ(rows, commands - 1);  // `reckon grains` is the name of a group
 }
 
-/// On a terminal (script(1) provides one) long work draws a bar, and takes it away again. What is
-/// long depends on the machine: the work grows until a bar has been drawn.
-TEST_F(CliTest, LongWorkDrawsABarOnATerminal) {
-  const auto drawn_at_last = [&](std::size_t amount, const auto& line_of) {
-    std::string out;
-    for (int growth = 0; growth < 6; ++growth, amount *= 4) {
-      const std::string line = RECKON_PROGRAM + line_of(amount);
-      out = outcome_of(start_line({"/usr/bin/script", "-qec", line, "/dev/null"})).out;
-      if (out.find("\r\033[K[") != std::string::npos) return std::pair{out, amount};
-    }
-    ADD_FAILURE() << "no bar: " << out;
-    return std::pair{out, amount};
-  };
-  const auto [run, steps] = drawn_at_last(4000, [&](std::size_t amount) {
-    write("long.toml", scene_text(fmt::format(
-                           "[time]\nsteps = {0}\n[output]\nhistory_interval = {0}\n", amount)));
-    return std::string{" run long.toml --overwrite"};
-  });
-  EXPECT_NE(run.find(" steps/s"), std::string::npos) << run;
-  // The bar is wiped before the first line of the summary.
-  EXPECT_TRUE(run.find(fmt::format("\r\033[Kcomplete at step {}", steps)) != std::string::npos ||
-              run.find("\r\033[KTHE FIGURES") != std::string::npos)
-      << run;
-  EXPECT_NE(run.find(fmt::format("complete at step {}", steps)), std::string::npos) << run;
-  const auto [made, grains] = drawn_at_last(12, [](std::size_t amount) {
-    return fmt::format(
-        " grains generate --count {} --voxels-per-diameter 40 --threads 1 -o many.h5", amount);
-  });
-  EXPECT_NE(made.find(fmt::format(" of {} grains", grains)), std::string::npos) << made;
-  EXPECT_NE(made.find(fmt::format("\r\033[Kmany.h5: {} grains", grains)), std::string::npos)
-      << made;
-}
-
 TEST_F(CliTest, ARunAnswersInJsonWithWhatItsStagesHaveShown) {
   write("staged.toml", staged());
   const Outcome outcome = reckon({"run", "staged.toml", "--json"});

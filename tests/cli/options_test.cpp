@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/program_fixture.hpp"
+#include "reckon/io/free_memory.hpp"
 
 namespace reckon {
 namespace {
@@ -121,6 +122,72 @@ TEST_F(OptionsTest, ACommandThatIsNotThereComesWithTheNearest) {
             "scene.toml`?\n");
   EXPECT_EQ(refusal({"help"}),
             "reckon: error: there is no command \"help\". Did you mean `reckon --help`?\n");
+}
+
+TEST_F(OptionsTest, AnOptionIsNoValueOfAnother) {
+  EXPECT_EQ(refusal({"run", "scene.toml", "--out", "--quiet"}),
+            "reckon: error: --out: needs a value, and --quiet is none. A name that begins so: "
+            "./--quiet\nSee: reckon run --help\n");
+  EXPECT_FALSE(std::filesystem::exists(root_ / "--quiet"));
+}
+
+TEST_F(OptionsTest, DecimalCommasBetweenLengths) {
+  for (const char* solid : {"--sphere=0,5mm", "--box=1,5mm,2mm,3mm"}) {
+    EXPECT_NE(refusal({"grains", "solid", solid, "-o", "x.h5"}).find("decimals have a point"),
+              std::string::npos)
+        << solid;
+  }
+  EXPECT_NE(refusal({"grains", "solid", "--sphere", "1e300m", "-o", "x.h5"})
+                .find("lengths go from 1e-12 to 1e+06 m"),
+            std::string::npos);
+}
+
+TEST_F(OptionsTest, AFileOfTheUsersIsNotReplacedByALibrary) {
+  const std::string before = read_file(root_ / "scene.toml");
+  EXPECT_EQ(refusal({"grains", "solid", "--sphere", "1mm", "-o", "scene.toml"}),
+            "reckon: error: scene.toml: is not replaced (there is another file of this name, no "
+            "shape library). Give another name, or remove that file first.\n");
+  EXPECT_NE(refusal({"grains", "spheres", "grains.h5", "-o", "scene.toml"}), "");
+  EXPECT_EQ(read_file(root_ / "scene.toml"), before);
+  const Outcome again = reckon({"grains", "spheres", "grains.h5", "-o", "grains.h5"});
+  EXPECT_EQ(again.code, 0) << again.err;
+}
+
+TEST_F(OptionsTest, SizesOfGrainsAreHeldAgainstTheMemory) {
+  constexpr double grid_of_a_thousand = 44e9;
+  if (static_cast<double>(free_memory()) > grid_of_a_thousand) {
+    GTEST_SKIP() << "this machine has the memory";
+  }
+  const std::string said = refusal({"grains", "solid", "--sphere", "1mm", "--voxels-per-diameter",
+                                    "1000", "--threads", "1", "-o", "x.h5"});
+  EXPECT_NE(said.find("a grid of 1000 voxels per diameter would take 43.9 GB of memory"),
+            std::string::npos)
+      << said;
+}
+
+/// The library of a scan names the command and the files it comes from.
+TEST_F(OptionsTest, TheLibraryOfAScanSaysHowItWasMade) {
+  const auto made = [&](const std::string& library) {
+    const Outcome info = reckon({"grains", "info", library, "--json"});
+    EXPECT_EQ(info.code, 0) << info.err;
+    return info.out;
+  };
+  const auto expect_in = [](const std::string& text, const std::vector<std::string>& parts) {
+    for (const std::string& part : parts) {
+      EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
+    }
+  };
+  ASSERT_EQ(reckon({"grains", "scan", "scene.toml", "--voxel", "0.1mm", "--format", "raw", "--out",
+                    "scan"})
+                .code,
+            0);
+  expect_in(made("scan/library.h5"), {"\"scan\"", "\"--voxel\"", "scene.toml", "grains.h5"});
+  const Outcome cut = reckon({"grains", "from-scan", "scan/volume.raw", "--voxel", "0.1mm",
+                              "--keep-border", "--out", "cut"});
+  if (cut.err.find("built without") != std::string::npos) GTEST_SKIP() << cut.err;
+  ASSERT_EQ(cut.code, 0) << cut.err;
+  expect_in(made("cut/library.h5"),
+            {"\"from-scan\"", "\"--keep-border\"", "scan/volume.raw\"", "scan/volume.raw.txt"});
 }
 
 TEST_F(OptionsTest, AScanHasGraysThatItsTypeHolds) {

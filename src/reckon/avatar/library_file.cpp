@@ -19,6 +19,7 @@
 #include "reckon/core/exact_sum.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/hdf5_file.hpp"
+#include "reckon/core/seal.hpp"
 #include "reckon/core/write_failure.hpp"
 
 namespace reckon {
@@ -153,7 +154,9 @@ void LibraryWriter::Impl::write_nodes() {
 
 LibraryWriter::LibraryWriter(const std::filesystem::path& path, ShapeStorage storage,
                              Provenance provenance)
-    : impl_{std::make_unique<Impl>(path, storage, std::move(provenance))} {}
+    : impl_{std::make_unique<Impl>(path, storage, std::move(provenance))} {
+  require_replaceable_library(path);
+}
 LibraryWriter::~LibraryWriter() = default;
 
 void LibraryWriter::add(const Shape& shape) {
@@ -235,6 +238,10 @@ void LibraryWriter::finish() {
   }
   write_provenance(file, own.provenance);
   file.finish();
+}
+
+void require_replaceable_library(const std::filesystem::path& path) {
+  require_replaceable(path, library_kind.name);
 }
 
 void save_library(const std::filesystem::path& path, const ShapeLibrary& library,

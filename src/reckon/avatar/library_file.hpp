@@ -65,6 +65,9 @@ class LibraryWriter {
 void save_library(const std::filesystem::path& path, const ShapeLibrary& library,
                   Provenance provenance = {});
 
+/// Throws Error when a file that is no shape library has this name: it is not replaced.
+void require_replaceable_library(const std::filesystem::path& path);
+
 /// All shapes of a library file, or of a folder of legacy morphology files (morph_1.dat,
 /// morph_2.dat, ... in numeric order; see legacy_morphology.hpp), in which a voxel is taken as
 /// `legacy_voxel` metres long. Every shape's digest and check_shape are verified.

@@ -5,7 +5,6 @@
 #include <fcntl.h>
 
 #include <algorithm>
-#include <string_view>
 
 #include "reckon/core/file.hpp"
 #include "reckon/core/xxhash64.hpp"
@@ -16,14 +15,8 @@ namespace {
 SourceFile hashed(const std::filesystem::path& path) {
   const OpenFile file{path, O_RDONLY};
   XxHash64 hash;
-  std::vector<char> buffer(1 << 20);
-  SourceFile source{path.string(), 0, 0};
-  while (const std::size_t count = file.read(source.bytes, buffer)) {
-    hash.update(std::string_view{buffer.data(), count});
-    source.bytes += count;
-  }
-  source.xxh64 = hash.digest();
-  return source;
+  const std::uint64_t bytes = hash_file(file, 0, hash);
+  return {path.string(), bytes, hash.digest()};
 }
 
 }  // namespace

@@ -30,20 +30,12 @@ constexpr std::string_view family = "Sand Reckoner ";
                .fix = std::move(fix)}};
 }
 
-/// Hashes what follows the seal and returns the length of the whole file.
-std::uint64_t hash_content(const OpenFile& file, XxHash64& hash) {
-  std::vector<char> buffer(1 << 20);
-  std::uint64_t size = seal_size;
-  while (const std::size_t count = file.read(size, buffer)) {
-    hash.update(std::string_view{buffer.data(), count});
-    size += count;
-  }
-  return size;
-}
+/// The first line of a seal.
+std::string seal_line(const std::string& kind) { return fmt::format("{}{}\n", family, kind); }
 
 /// The lines of a seal that its own hash covers.
 std::string seal_head(const std::string& kind, std::uint64_t version, std::uint64_t size) {
-  return fmt::format("{}{}\nversion {}\nbytes {}\n", family, kind, version, size);
+  return fmt::format("{}version {}\nbytes {}\n", seal_line(kind), version, size);
 }
 
 std::string whole_seal(const std::string& head, std::uint64_t digest) {
@@ -69,7 +61,7 @@ void write_seal(const std::filesystem::path& path, const std::string& kind, std:
                 const std::filesystem::path& named) {
   OpenFile file{path, O_RDWR, named};
   XxHash64 hash;
-  const std::uint64_t size = hash_content(file, hash);
+  const std::uint64_t size = hash_file(file, seal_size, hash);
   if (size != file.size()) throw_write_failure(named, 0);  // shorter than a seal, or growing
   const std::string head = seal_head(kind, version, size);
   hash.update(head);
@@ -80,6 +72,16 @@ void write_seal(const std::filesystem::path& path, const std::string& kind, std:
     throw_write_failure(named, 0);
   }
   file.close();
+}
+
+void require_replaceable(const std::filesystem::path& path, const std::string& kind) {
+  if (!std::filesystem::is_regular_file(path)) return;
+  const OpenFile file{path, O_RDONLY};
+  std::array<char, seal_size> head{};
+  const std::size_t size = file.read(0, head);
+  if (size == 0 || std::string_view{head.data(), size}.starts_with(seal_line(kind))) return;
+  refuse(path, "is not replaced", fmt::format("there is another file of this name, no {}", kind),
+         "Give another name, or remove that file first.");
 }
 
 SealContent check_seal(const std::filesystem::path& path, const std::string& kind) {
@@ -109,7 +111,7 @@ SealContent check_seal(const std::filesystem::path& path, const std::string& kin
     refuse(path, "is damaged", "its seal cannot be read", "Make it anew or restore a copy.");
   }
   XxHash64 hash;
-  const std::uint64_t found_size = hash_content(file, hash);
+  const std::uint64_t found_size = hash_file(file, seal_size, hash);
   if (found_size != size) {
     refuse(path, "is damaged",
            fmt::format("it has {} bytes where its seal says {}", found_size, size),

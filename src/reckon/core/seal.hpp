@@ -26,6 +26,10 @@ inline constexpr std::size_t seal_size = 512;
 void write_seal(const std::filesystem::path& path, const std::string& kind, std::uint32_t version,
                 const std::filesystem::path& named);
 
+/// Throws Error, which says that the file stays, when `path` is a file with content that is not
+/// sealed as `kind`: it is someone else's, and a name given by mistake must not cost it.
+void require_replaceable(const std::filesystem::path& path, const std::string& kind);
+
 struct SealContent {
   std::uint32_t version{0};
   std::uint64_t file_size{0};  ///< [bytes]

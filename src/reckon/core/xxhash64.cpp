@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <vector>
+
+#include "reckon/core/file.hpp"
 
 namespace reckon {
 namespace {
@@ -78,6 +81,15 @@ std::uint64_t XxHash64::digest() const {
   hash = (hash ^ (hash >> 33)) * prime_2;
   hash = (hash ^ (hash >> 29)) * prime_3;
   return hash ^ (hash >> 32);
+}
+
+std::uint64_t hash_file(const OpenFile& file, std::uint64_t offset, XxHash64& hash) {
+  std::vector<char> buffer(1 << 20);
+  while (const std::size_t count = file.read(offset, buffer)) {
+    hash.update(std::string_view{buffer.data(), count});
+    offset += count;
+  }
+  return offset;
 }
 
 }  // namespace reckon

@@ -29,4 +29,9 @@ class XxHash64 {
   std::uint64_t size_{0};
 };
 
+class OpenFile;
+
+/// Hashes a file from byte `offset` on and returns its whole length.
+std::uint64_t hash_file(const OpenFile& file, std::uint64_t offset, XxHash64& hash);
+
 }  // namespace reckon
