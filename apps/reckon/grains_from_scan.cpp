@@ -35,6 +35,7 @@ struct Options {
   int threads{0};
   std::string truth;
   std::string threshold;
+  std::string grays;
   bool no_fill{false};
   SegmentSettings segment;
   AvatarSettings avatars;
@@ -62,12 +63,24 @@ ShapeResolution resolution_of(const Options& options) {
   return resolution;
 }
 
-void run(Options options) {
+/// The files that the grains come from.
+std::vector<std::string> sources_of(const SegmentSettings& settings) {
+  std::vector<std::string> files = files_of_volume(settings.volume.file);
+  for (const std::filesystem::path* other : {&settings.gray, &settings.specimen.mask}) {
+    if (other->empty()) continue;
+    const auto more = files_of_volume(*other);
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  return files;
+}
+
+void run(Options options, const CommandWords& words) {
   if (options.threads > 0) set_thread_count(options.threads);
   require_ct_component();
   SegmentSettings& segment = options.segment;
   segment.volume.voxel = parse_length("--voxel", options.voxel);
   segment.mask.fill = !options.no_fill;
+  if (!options.grays.empty()) segment.mask.grays = parse_numbers("--grays", options.grays);
   AvatarSettings avatars = options.avatars;
   avatars.resolution = resolution_of(options);
   if (!options.truth.empty() &&
@@ -100,7 +113,8 @@ void run(Options options) {
     assembly = make_avatars(stored, scan.grains, scan.choice.kept, avatars,
                             [&](std::size_t done) { display.show(done, kept); });
   }
-  LibraryWriter library{folder / "library.h5", avatars.resolution.storage};
+  LibraryWriter library{folder / "library.h5", avatars.resolution.storage,
+                        provenance_of(words, sources_of(segment))};
   for (const KeptShape& shape : assembly.shapes) library.add(shape.whole());
   library.finish();
   write_placement(folder / "placement.csv", assembly.grains);
@@ -133,8 +147,14 @@ void add_stage_options(CLI::App& command, Options& options) {
   number("--conductance", s.denoise.conductance,
          "Conductance of curvature diffusion; less keeps more edges")
       ->check(CLI::PositiveNumber);
-  command.add_option("--threshold", s.mask.threshold,
-                     "Gray value between void and solid (default: found by Otsu's method)");
+  auto* threshold =
+      command.add_option("--threshold", s.mask.threshold,
+                         "Gray value between void and solid (default: found by Otsu's method)");
+  command
+      .add_option("--grays", options.grays,
+                  "Grays of void and of each solid, rising (default: found)")
+      ->type_name("VOID,SOLID,...")
+      ->excludes(threshold);
   command.add_flag("--no-fill", options.no_fill, "Leave voids inside grains");
   command
       .add_option("--open", s.mask.open_radius, "Radius of a ball that opens the solid [voxels]")
@@ -197,7 +217,7 @@ void add_avatar_options(CLI::App& command, Options& options) {
 
 }  // namespace
 
-void add_grains_from_scan(CLI::App& grains) {
+void add_grains_from_scan(CLI::App& grains, const CommandWords& words) {
   CLI::App* command = grains.add_subcommand(
       "from-scan", "Grains and their places from an X-ray volume, gray or labelled");
   command->footer(
@@ -242,7 +262,7 @@ void add_grains_from_scan(CLI::App& grains) {
       ->check(CLI::Range(8, 100000));
   command->add_option("--threads", options->threads, "Threads (default: all)")
       ->check(CLI::Range(1, most_threads));
-  command->callback([=] { run(*options); });
+  command->callback([=] { run(*options, words); });
 }
 
 }  // namespace reckon::app

@@ -50,6 +50,7 @@ struct Options {
 struct Assembly {
   std::vector<GrainState> grains;
   ReadShape read_shape;
+  std::vector<std::string> files;  ///< that they were read from
 };
 
 Assembly open_run(const Options& options) {
@@ -62,9 +63,12 @@ Assembly open_run(const Options& options) {
                  .reason = steps.empty() ? "the run has none" : fmt::format("step {}", step),
                  .fix = "Its folder checkpoints lists them."}};
   }
-  const Checkpoint checkpoint = read_checkpoint(folder.own(folder.checkpoint(step)));
+  const std::filesystem::path file = folder.own(folder.checkpoint(step));
+  const Checkpoint checkpoint = read_checkpoint(file);
   const auto catalog = std::make_shared<const ShapeCatalog>(shapes_of(checkpoint, options.source));
-  return {fields_of(checkpoint).grains, [catalog](ShapeId shape) { return catalog->read(shape); }};
+  return {fields_of(checkpoint).grains,
+          [catalog](ShapeId shape) { return catalog->read(shape); },
+          {file.string()}};
 }
 
 Assembly open_scene(const Options& options) {
@@ -76,7 +80,13 @@ Assembly open_scene(const Options& options) {
                  .reason = {},
                  .fix = "`reckon check` lists every fault."}};
   }
-  return {std::move(scene.grains), std::move(scene.read_shape)};
+  std::vector<std::string> files{options.source};
+  for (const GrainsConfig& set : scene.config.grains) {
+    if (std::find(files.begin(), files.end(), set.library) == files.end()) {
+      files.push_back(set.library);
+    }
+  }
+  return {std::move(scene.grains), std::move(scene.read_shape), std::move(files)};
 }
 
 /// The shapes that occur, under new ids in the order of the old ones.
@@ -123,7 +133,7 @@ void require_grays_fit(const ScannerSettings& settings, VoxelType type) {
   }
 }
 
-void scan(const Options& options) {
+void scan(const Options& options, const CommandWords& words) {
   if (options.threads > 0) set_thread_count(options.threads);
   const auto type = voxel_type_named(options.type);
   ScannerSettings settings = options.scanner;
@@ -152,7 +162,7 @@ void scan(const Options& options) {
   }
   volume->finish();
   labels->finish();
-  save_library(folder / "library.h5", library);
+  save_library(folder / "library.h5", library, provenance_of(words, assembly.files));
   write_placement(folder / "placement.csv", grains);
   const auto contacts = near_surfaces(shape_views(library), grains, 0);
   write_contacts(folder / "contacts.csv", contacts);
@@ -177,7 +187,7 @@ void scan(const Options& options) {
 
 }  // namespace
 
-void add_grains_scan(CLI::App& grains) {
+void add_grains_scan(CLI::App& grains, const CommandWords& words) {
   CLI::App* command = grains.add_subcommand(
       "scan",
       "Scan a run or a scene as an X-ray tomograph would, with the truth beside the volume");
@@ -235,7 +245,7 @@ void add_grains_scan(CLI::App& grains) {
   command->add_option("--threads", options->threads, "Threads (default: all)")
       ->check(CLI::Range(1, most_threads));
   command->add_flag("--json", options->json, "Answer in JSON");
-  command->callback([=] { scan(*options); });
+  command->callback([=] { scan(*options, words); });
 }
 
 }  // namespace reckon::app

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/program_fixture.hpp"
-#include "reckon/io/free_memory.hpp"
+#include "reckon/text/free_memory.hpp"
 
 namespace reckon {
 namespace {

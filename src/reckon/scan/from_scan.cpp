@@ -287,8 +287,9 @@ class Segmenter {
   void threshold() {
     begin(ScanStage::threshold);
     const MaskSettings& s = settings_.mask;
-    key_ = key_after(key_, fmt::format("threshold {} {} {} {} {}", s.threshold.has_value(),
-                                       s.threshold.value_or(0), s.fill, s.open_radius, s.phases));
+    key_ = key_after(key_, fmt::format("threshold {} {} {} {} {} {}", s.threshold.has_value(),
+                                       s.threshold.value_or(0), s.fill, s.open_radius, s.phases,
+                                       fmt::join(s.grays, " ")));
     std::vector<double> numbers(3);
     if (auto known =
             recall<std::uint8_t>(file_of(ScanStage::threshold), key_, scan_.raw, numbers)) {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
+#include "reckon/core/error.hpp"
 #include "reckon/scan/image_filters.hpp"
 #include "reckon/scan/labels.hpp"
 
@@ -139,6 +141,18 @@ GrayPhases find_phases(const GrayOnDisk& gray, const MaskOnDisk& inside, const W
     phases.main = levels.solid_gray;
   }
   return phases;
+}
+
+GrayPhases given_phases(const std::vector<double>& grays) {
+  const bool rise =
+      std::adjacent_find(grays.begin(), grays.end(), std::greater_equal<>{}) == grays.end();
+  if (grays.size() < 2 || !rise) {
+    throw Error{{.place = "--grays",
+                 .problem = "these are no grays of void and solid",
+                 .reason = "the first is that of void, and each is above the one before it",
+                 .fix = "Give --grays 9000,21000,40000, say. Where void is bright: --invert."}};
+  }
+  return {grays.front(), {grays.begin() + 1, grays.end()}, grays.back()};
 }
 
 MaskVolume faint_solid(const GrayVolume& gray, const GrayPhases& phases) {

@@ -28,6 +28,10 @@ struct GrayPhases {
 [[nodiscard]] GrayPhases find_phases(const GrayOnDisk& gray, const MaskOnDisk& inside,
                                      const Workspace& work);
 
+/// From grays of void and of each solid, which must rise. The brightest solid is taken for the main
+/// one. Throws Error when fewer than two are given or they do not rise.
+[[nodiscard]] GrayPhases given_phases(const std::vector<double>& grays);
+
 /// The reach of faint_solid() [voxels].
 inline constexpr std::int32_t faint_reach = 8;
 /// Voxels of the faint phase: bodies of its gray that a ball of two voxels' radius fits into, and

@@ -67,7 +67,11 @@ GrayLevels levels_of(const GrayOnDisk& gray, const MaskOnDisk& mask, double thre
 SolidMask find_solid(const GrayOnDisk& gray, const MaskSettings& settings, const Workspace& work,
                      const MaskOnDisk& inside) {
   GrayPhases phases;
-  if (!settings.threshold && settings.phases != 1) phases = find_phases(gray, inside, work);
+  if (!settings.grays.empty()) {
+    phases = given_phases(settings.grays);
+  } else if (!settings.threshold && settings.phases != 1) {
+    phases = find_phases(gray, inside, work);
+  }
   const bool several = phases.solid.size() > 1;
   const bool has_faint = phases.faint().has_value();
   // Of several phases the most common one gives the levels.

@@ -25,7 +25,8 @@ struct MaskSettings {
   std::optional<double> threshold;  ///< absent: found from the gray values
   bool fill{true};                  ///< voids inside grains become solid
   std::uint32_t open_radius{0};     ///< of the ball that opens the mask; 0: none [voxels]
-  std::uint32_t phases{0};  ///< of solid that are looked for: 1, or 0 for as many as there are
+  std::uint32_t phases{0};    ///< of solid that are looked for: 1, or 0 for as many as there are
+  std::vector<double> grays;  ///< of void and of each solid, rising; empty: found
 };
 
 struct SplitSettings {

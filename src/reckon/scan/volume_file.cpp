@@ -82,10 +82,11 @@ std::uint64_t after_lines(const ByteFile& file, std::uint64_t start, std::uint64
   return start;
 }
 
+using ParseHeader = VolumeHeader (*)(std::string_view bytes, const std::string& place);
+
 /// NumPy, MetaImage or NRRD: a header, and behind it or in other files the numbers.
 std::unique_ptr<VolumeReader> open_with_header(const std::filesystem::path& path,
-                                               VolumeHeader (*parse)(std::string_view bytes,
-                                                                     const std::string& place)) {
+                                               ParseHeader parse) {
   auto file = std::make_shared<const ByteFile>(path);
   VolumeHeader header = parse(beginning_of(*file), path.string());
   if (header.data_files.size() > 1) {
@@ -103,6 +104,14 @@ std::unique_ptr<VolumeReader> open_with_header(const std::filesystem::path& path
   return mirrored(std::move(reader), header.mirrored);
 }
 
+/// For files whose header may name others; null for all else.
+ParseHeader header_parser_of(const std::string& ending) {
+  if (ending == ".npy") return parse_npy_header;
+  if (ending == ".mha" || ending == ".mhd") return parse_metaimage_header;
+  if (ending == ".nrrd" || ending == ".nhdr") return parse_nrrd_header;
+  return nullptr;
+}
+
 std::unique_ptr<VolumeReader> open_by_ending(const VolumeRequest& request) {
   const std::filesystem::path& file = request.file;
   if (std::filesystem::is_directory(file)) return open_slices(file);
@@ -111,9 +120,7 @@ std::unique_ptr<VolumeReader> open_by_ending(const VolumeRequest& request) {
   }
   const std::string ending = ending_of(file);
   if (ending == ".raw") return open_raw(file);
-  if (ending == ".npy") return open_with_header(file, parse_npy_header);
-  if (ending == ".mha" || ending == ".mhd") return open_with_header(file, parse_metaimage_header);
-  if (ending == ".nrrd" || ending == ".nhdr") return open_with_header(file, parse_nrrd_header);
+  if (const ParseHeader parse = header_parser_of(ending)) return open_with_header(file, parse);
   if (ending == ".h5" || ending == ".hdf5") return open_hdf5_volume(file, request.dataset);
   if (is_tiff(file)) return open_tiff_volume(file);
   refuse_ending(file);
@@ -245,6 +252,19 @@ LabelVolume to_labels(const GrayVolume& volume, const std::string& place) {
     labels.values[v] = static_cast<std::uint32_t>(value);
   }
   return labels;
+}
+
+std::vector<std::string> files_of_volume(const std::filesystem::path& file) {
+  std::vector<std::string> files{file.string()};
+  if (std::filesystem::is_directory(file)) return files;
+  const std::string ending = ending_of(file);
+  if (ending == ".raw") files.push_back(sidecar_of(file).string());
+  if (const ParseHeader parse = header_parser_of(ending)) {
+    for (const std::string& name : parse(beginning_of(ByteFile{file}), file.string()).data_files) {
+      files.push_back((file.parent_path() / name).string());
+    }
+  }
+  return files;
 }
 
 }  // namespace reckon

@@ -63,6 +63,10 @@ struct StoredVolume : VolumeOutline {
   GrayVolume gray;
 };
 
+/// The files that a volume consists of: its own, a text beside it, and those that its header names.
+/// A folder of slices stands for all of them.
+[[nodiscard]] std::vector<std::string> files_of_volume(const std::filesystem::path& file);
+
 /// Reads a volume by the ending of its name:
 ///
 ///   .raw        numbers only; NAME.raw.txt beside it describes them, in lines

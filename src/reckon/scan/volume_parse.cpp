@@ -32,9 +32,12 @@ std::string_view value_after(std::string_view header, std::string_view key,
 std::array<std::int64_t, 3> numpy_shape(std::string_view text, const std::string& place) {
   std::vector<std::int64_t> shape;
   for (const char* at = text.data(); at < text.data() + text.size();) {
-    if (*at < '0' || *at > '9') {
+    if (std::string_view{"(), L"}.find(*at) != std::string_view::npos) {
       ++at;
       continue;
+    }
+    if (*at < '0' || *at > '9') {
+      refuse_volume(place, "the array's shape cannot be read", std::string{text}, "Save it anew.");
     }
     std::int64_t length = 0;
     const auto [end, code] = std::from_chars(at, text.data() + text.size(), length);

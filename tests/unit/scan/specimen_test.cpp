@@ -237,6 +237,35 @@ TEST_F(Specimens, AFaintMineralIsFound) {
   EXPECT_TRUE(find_solid(denoised(noisy, {}, whole), {}, whole).phases.empty());
 }
 
+/// Grays that the user gives count as those that are found.
+TEST_F(Specimens, GraysOfPhasesMayBeGiven) {
+  const GrayVolume share = ball_shares([](int ball) { return ball % 3 == 0 ? 0.4 : 1.0; });
+  const GrayOnDisk quiet = denoised(on_disk(scanned(share, plain), whole.folder), {}, whole);
+  const SolidMask found = find_solid(quiet, {}, whole);
+  MaskSettings settings;
+  settings.grays = {void_gray, void_gray + 0.4 * step, void_gray + step};
+  const SolidMask given = find_solid(quiet, settings, whole);
+  EXPECT_EQ(given.phases, std::vector<double>(settings.grays.begin() + 1, settings.grays.end()));
+  const MaskVolume a = found.mask.read(share.box());
+  const MaskVolume b = given.mask.read(share.box());
+  std::size_t solid = 0;
+  std::size_t other = 0;
+  for (std::size_t v = 0; v < a.values.size(); ++v) {
+    solid += a.values[v] != 0 ? 1U : 0U;
+    other += a.values[v] != b.values[v] ? 1U : 0U;
+  }
+  EXPECT_LT(static_cast<double>(other), 0.02 * static_cast<double>(solid));
+  // Without the faint one, its balls are void.
+  settings.grays = {void_gray, void_gray + step};
+  const MaskVolume bright = find_solid(quiet, settings, whole).mask.read(share.box());
+  std::size_t left = 0;
+  for (const auto value : bright.values) left += value != 0 ? 1U : 0U;
+  EXPECT_LT(static_cast<double>(left), 0.8 * static_cast<double>(solid));
+  for (const std::vector<double>& wrong : {std::vector<double>{1}, {2, 1}, {1, 1, 2}}) {
+    EXPECT_THROW((void)given_phases(wrong), Error);
+  }
+}
+
 TEST_F(Specimens, BlocksGiveTheBitsOfTheWhole) {
   const GrayVolume share = ball_shares([](int ball) { return ball % 3 == 0 ? 0.4 : 1.0; });
   GrayVolume gray = scanned(share, [](double s, const Vec3& p) { return s + p.x / size; });

@@ -161,6 +161,10 @@ TEST_F(VolumeFile, FaultsNameTheFileAndTheCure) {
   bad.values[3] = std::numeric_limits<float>::quiet_NaN();
   write_volume(path("nan.npy"), bad, VoxelType::float32);
   expect_error([&] { (void)read("nan.npy"); }, {"not finite", "voxel 3"});
+  std::string turned = read_file(path("nan.npy"));
+  turned.replace(turned.find("(2, 2, 2)"), 9, "(-2, 2, 2");
+  write_file(path("turned.npy"), turned);
+  expect_error([&] { (void)read("turned.npy"); }, {"turned.npy", "shape cannot be read", "-2"});
   write_file(path("bad.raw"), "12345678");
   write_file(path("bad.raw.txt"), "dims 2 2 2\ntype colour\n");
   expect_error([&] { (void)read("bad.raw"); }, {"bad.raw.txt", "colour", "uint8"});
