@@ -39,6 +39,9 @@ TEST_F(CliTest, FiguresThatMeanNothingAreAnnouncedFirst) {
   ASSERT_NE(verdict, std::string::npos) << run.out;
   EXPECT_LT(verdict, run.out.find("complete at step"));
   EXPECT_LT(verdict, run.out.find("peak friction angle"));
+  const Outcome quiet = reckon({"run", "soft.toml", "--out", "quiet.run", "--quiet"});
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_TRUE(quiet.err.starts_with("THE FIGURES OF THIS RUN MEAN NOTHING:")) << quiet.err;
   const Outcome again = reckon({"run", "soft.toml", "--resume", "--json"});
   EXPECT_TRUE(again.out.starts_with("{\n  \"valid\": false,\n  \"reasons\": [\n")) << again.out;
   EXPECT_TRUE(reckon({"analyse", "soft.run"}).out.starts_with("THE FIGURES OF THIS RUN MEAN"));
@@ -215,6 +218,8 @@ TEST_F(CliTest, CheckWarnsOfWhatWillBlowUp) {
   EXPECT_EQ(usual_text.find("TOO LONG"), std::string::npos) << usual_text;
   const std::string long_step = said_of(scene_text("[time]\nsteps = 600\nstep = '1 ms'\n"));
   EXPECT_NE(long_step.find("TOO LONG"), std::string::npos) << long_step;
+  const Outcome run = reckon({"run", "odd.toml", "--steps", "1"});  // says so, too
+  EXPECT_NE((run.out + run.err).find("TOO LONG"), std::string::npos) << run.out << run.err;
   std::string outside = scene_text(usual);
   outside.replace(outside.find("low = [0"), 8, "low = [-0.01");
   const std::string beyond = said_of(outside);
