@@ -24,7 +24,9 @@ std::string with_small_initial(std::string_view text) {
 
 /// On what the parser itself says.
 std::string advice_on_description(std::string_view problem) {
-  const auto says = [&](std::string_view part) { return problem.find(part) != problem.npos; };
+  const auto says = [&](std::string_view part) {
+    return problem.find(part) != std::string_view::npos;
+  };
   if (says("invalid utf-8")) return "Save the file as UTF-8.";
   if (says("unknown escape sequence")) {
     return "A backslash in \"...\" begins an escape: write /, or put the text between ' and '.";
