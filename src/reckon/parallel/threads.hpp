@@ -65,24 +65,29 @@ void parallel_for(std::size_t count, std::size_t chunk, Body&& body) {
   if (failure) std::rethrow_exception(failure);
 }
 
-// `max` of OpenMP starts at the lowest finite number in some compilers: -infinity would be lost.
-#ifdef _OPENMP
-#pragma omp declare reduction(reckon_largest:double                            \
-                              : omp_out = omp_in > omp_out ? omp_in : omp_out) \
-    initializer(omp_priv = omp_orig)
-#endif
-
 /// The largest value(k) over k in [0, count), or `least` if that is larger. The order of comparing
 /// does not matter, so neither does the number of threads.
 template <class Value>
 [[nodiscard]] double parallel_max(std::size_t count, double least, Value&& value) {
   double largest = least;
+  // A reduction of OpenMP begins at the lowest finite number with some compilers, so that a least
+  // of -infinity would be lost.
 #ifdef _OPENMP
-#pragma omp parallel for schedule(static) reduction(reckon_largest : largest) if (count > 4096)
+#pragma omp parallel if (count > 4096)
 #endif
-  for (std::size_t k = 0; k < count; ++k) {
-    const double v = value(k);
-    if (v > largest) largest = v;
+  {
+    double mine = least;
+#ifdef _OPENMP
+#pragma omp for schedule(static) nowait
+#endif
+    for (std::size_t k = 0; k < count; ++k) {
+      const double v = value(k);
+      if (v > mine) mine = v;
+    }
+#ifdef _OPENMP
+#pragma omp critical(reckon_parallel_max)
+#endif
+    if (mine > largest) largest = mine;
   }
   return largest;
 }
