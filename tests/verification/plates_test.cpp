@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// A layer of grains, endless along x and y, on a floor or between two plates. Newton's laws give the
-// force on the plates, independent of the motion of grains and the borders of the cell.
+// A layer of grains, endless along x and y, on a floor or between two plates. Newton's laws give
+// the force on the plates, independent of the motion of grains and the borders of the cell.
 #include <gtest/gtest.h>
 
 #include <cmath>
