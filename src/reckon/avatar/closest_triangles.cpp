@@ -84,8 +84,7 @@ class Search {
     normal_.reserve(mesh_.triangles.size());
     cone_.resize(mesh_.vertices.size());
     for (const TriangleMesh::Triangle& t : mesh_.triangles) {
-      const Vec3& a = mesh_.vertices[t[0]];
-      normal_.push_back(normalized(cross(mesh_.vertices[t[1]] - a, mesh_.vertices[t[2]] - a)));
+      normal_.push_back(normalized(doubled_area_vector(mesh_, t)));
       for (const std::uint32_t corner : t) cone_[corner].axis += normal_.back();
     }
     for (Cone& cone : cone_) cone.axis = normalized(cone.axis);

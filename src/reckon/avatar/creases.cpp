@@ -44,9 +44,7 @@ class SharpEdges {
 
  private:
   [[nodiscard]] Vec3 normal(std::uint32_t triangle) const {
-    const auto& [a, b, c] = mesh_.triangles[triangle];
-    return normalized(
-        cross(mesh_.vertices[b] - mesh_.vertices[a], mesh_.vertices[c] - mesh_.vertices[a]));
+    return normalized(doubled_area_vector(mesh_, mesh_.triangles[triangle]));
   }
   [[nodiscard]] std::uint32_t other_end(std::uint32_t edge, std::uint32_t vertex) const {
     return ends_[edge][0] == vertex ? ends_[edge][1] : ends_[edge][0];

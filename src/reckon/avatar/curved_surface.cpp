@@ -20,7 +20,7 @@ CurvedSurface::CurvedSurface(const TriangleMesh& mesh) : mesh_{mesh} {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const TriangleMesh::Triangle& triangle = mesh.triangles[t];
     const auto at = [&](std::size_t c) { return mesh.vertices[triangle[c % 3]]; };
-    face[t] = normalized(cross(at(1) - at(0), at(2) - at(0)));
+    face[t] = normalized(doubled_area_vector(mesh, triangle));
     for (std::size_t c = 0; c < 3; ++c) {
       // Max's weight (1999), sin(angle) / (product of the sides): exact for spheres.
       const Vec3 u = at(c + 1) - at(c);

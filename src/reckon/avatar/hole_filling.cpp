@@ -113,8 +113,7 @@ class LeastArea {
  private:
   [[nodiscard]] std::size_t at(std::size_t i, std::size_t k) const { return i * count_ + k; }
   [[nodiscard]] double area_of(std::size_t i, std::size_t j, std::size_t k) const {
-    const Vec3& a = mesh_.vertices[border_[i]];
-    return 0.5 * norm(cross(mesh_.vertices[border_[j]] - a, mesh_.vertices[border_[k]] - a));
+    return triangle_area(mesh_, {border_[i], border_[j], border_[k]});
   }
 
   const TriangleMesh& mesh_;
@@ -138,10 +137,10 @@ double clip_ears(const TriangleMesh& mesh, const Border& border, std::vector<Tri
     return fmt::format("{}, a hole of {} edges", name, border.size());
   });
   double area = 0;
-  for (const auto& [a, b, c] : filling.triangles) {
+  for (const TriangleMesh::Triangle& triangle : filling.triangles) {
+    const auto& [a, b, c] = triangle;
     triangles.push_back({border[a], border[b], border[c]});
-    const Vec3& p = filling.vertices[a];
-    area += 0.5 * norm(cross(filling.vertices[b] - p, filling.vertices[c] - p));
+    area += triangle_area(filling, triangle);
   }
   return area;
 }

@@ -81,8 +81,7 @@ Mat3 axes_of(const Mat3& vectors, const Vec3& moments) {
 double surface_area(const TriangleMesh& mesh) {
   double area = 0;
   for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
-    const Vec3& a = mesh.vertices[triangle[0]];
-    area += 0.5 * norm(cross(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a));
+    area += triangle_area(mesh, triangle);
   }
   return area;
 }

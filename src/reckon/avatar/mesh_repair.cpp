@@ -21,11 +21,6 @@ namespace {
 
 using Triangle = TriangleMesh::Triangle;
 
-double area_of(const TriangleMesh& mesh, const Triangle& t) {
-  const Vec3& a = mesh.vertices[t[0]];
-  return 0.5 * norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
-}
-
 std::size_t remove_doubled(TriangleMesh& mesh) {
   std::set<Triangle> seen;
   const std::size_t before = mesh.triangles.size();
@@ -41,8 +36,8 @@ void remove_fragments(TriangleMesh& mesh, MeshRepair& repair) {
   std::vector<double> area(part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1, 0.0);
   double whole = 0;
   for (std::size_t t = 0; t < part.size(); ++t) {
-    area[part[t]] += area_of(mesh, mesh.triangles[t]);
-    whole += area_of(mesh, mesh.triangles[t]);
+    area[part[t]] += triangle_area(mesh, mesh.triangles[t]);
+    whole += triangle_area(mesh, mesh.triangles[t]);
   }
   const double largest = area.empty() ? 0 : *std::max_element(area.begin(), area.end());
   const auto is_fragment = [&](double a) { return a < largest_fragment * largest; };

@@ -64,7 +64,7 @@ void write_stl(const std::filesystem::path& path, const TriangleMesh& mesh,
     const Vec3& a = mesh.vertices[t[0]];
     const Vec3& b = mesh.vertices[t[1]];
     const Vec3& c = mesh.vertices[t[2]];
-    put(to, normalized(cross(b - a, c - a)));
+    put(to, normalized(doubled_area_vector(mesh, t)));
     put(to, a);
     put(to, b);
     put(to, c);

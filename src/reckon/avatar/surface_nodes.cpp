@@ -34,11 +34,6 @@ constexpr double neighbour_reach = 1.7;    // [mean spacings]
 constexpr double opposite_cosine = -0.5;
 constexpr double least_face = 0.1;  // of a node's largest share, to count as one of its faces
 
-double triangle_area(const TriangleMesh& mesh, const TriangleMesh::Triangle& t) {
-  const Vec3& a = mesh.vertices[t[0]];
-  return 0.5 * norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
-}
-
 /// Finds the nearest of some oriented points, by cells of about one point each.
 class NearestPoint {
  public:

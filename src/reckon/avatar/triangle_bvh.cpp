@@ -215,7 +215,7 @@ void TriangleBvh::build_pseudo_normals(const TriangleMesh& mesh) {
     const TriangleMesh::Triangle& corners = mesh.triangles[t];
     const std::array<Vec3, 3> at{mesh.vertices[corners[0]], mesh.vertices[corners[1]],
                                  mesh.vertices[corners[2]]};
-    face_normals_[t] = normalized(cross(at[1] - at[0], at[2] - at[0]));
+    face_normals_[t] = normalized(doubled_area_vector(mesh, corners));
     for (std::size_t c = 0; c < 3; ++c) {
       const Vec3 next = at[(c + 1) % 3] - at[c];
       const Vec3 previous = at[(c + 2) % 3] - at[c];

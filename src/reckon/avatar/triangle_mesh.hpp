@@ -19,4 +19,15 @@ struct TriangleMesh {
   std::vector<Triangle> triangles;  ///< indices into vertices
 };
 
+/// The outward normal of a triangle, as long as twice its area [m^2].
+[[nodiscard]] inline Vec3 doubled_area_vector(const TriangleMesh& mesh,
+                                              const TriangleMesh::Triangle& triangle) {
+  const Vec3& a = mesh.vertices[triangle[0]];
+  return cross(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a);
+}
+[[nodiscard]] inline double triangle_area(const TriangleMesh& mesh,
+                                          const TriangleMesh::Triangle& triangle) {
+  return 0.5 * norm(doubled_area_vector(mesh, triangle));  // [m^2]
+}
+
 }  // namespace reckon

@@ -58,8 +58,7 @@ Vec3 onto_surface(const LevelSetView& grid, Vec3 point, double longest) {
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   std::vector<Vec3> normals(mesh.vertices.size());
   for (const TriangleMesh::Triangle& triangle : mesh.triangles) {
-    const Vec3& a = mesh.vertices[triangle[0]];
-    const Vec3 twice_area = cross(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a);
+    const Vec3 twice_area = doubled_area_vector(mesh, triangle);
     for (const std::uint32_t corner : triangle) normals[corner] += twice_area;
   }
   for (Vec3& normal : normals) {
