@@ -7,6 +7,7 @@
 #include "reckon/core/file.hpp"
 #include "reckon/output/checkpoint.hpp"
 #include "reckon/output/fields.hpp"
+#include "reckon/output/grain_fields.hpp"
 #include "reckon/output/history.hpp"
 #include "reckon/results/saved_fields.hpp"
 #include "reckon/text/number_table.hpp"
@@ -77,7 +78,7 @@ Target fields_target() {
               [folder](const std::string& input) {
                 std::filesystem::create_directories(folder->path() / "fields");
                 (void)folder->write(RunFolder::field_name("grains", 7), input);
-                (void)read_fields(RunFolder{folder->path()}, 7);
+                (void)read_fields(RunFolder{folder->path()}, 7, grain_fields());
               },
           .cost = 3};
 }

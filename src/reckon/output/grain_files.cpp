@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
+#include <variant>
 
 #include "reckon/avatar/surface_extraction.hpp"
 #include "reckon/core/vtk_xml.hpp"
@@ -60,7 +62,7 @@ class GrainArrays {
               std::span<const GrainField> table)
       : fields_{fields}, shapes_{shapes}, density_{density}, touching_{touching_of(fields)} {
     for (const GrainField& field : table) {
-      if (is_saved(field, fields)) columns_.push_back({&field, {}, {}, {}});
+      if (is_saved(field, fields)) columns_.push_back({&field, numbers_for(field)});
     }
   }
 
@@ -69,9 +71,7 @@ class GrainArrays {
       if (column.field->on_surface == OnSurface::nothing) continue;
       const bool at_vertices = column.field->on_surface == OnSurface::vertices;
       const std::size_t count = column.field->components * (at_vertices ? vertices : triangles);
-      if (column.field->numbers == FieldNumbers::real) column.real.reserve(count);
-      if (column.field->numbers == FieldNumbers::count) column.counts.reserve(count);
-      if (column.field->numbers == FieldNumbers::flag) column.flags.reserve(count);
+      std::visit([&](auto& numbers) { numbers.reserve(count); }, column.numbers);
     }
   }
 
@@ -87,8 +87,7 @@ class GrainArrays {
                             fields_.ranks.empty() ? 0 : fields_.ranks[row],
                             fields_.cell_shift.empty() ? Vec3{} : fields_.cell_shift[row]};
     for (Column& column : columns_) {
-      const std::array<double, 4> values = column.field->values(grain);
-      for (std::size_t n = times(*column.field); n > 0; --n) column.append(values);
+      column.append(column.field->values(grain), times(*column.field));
     }
   }
 
@@ -101,31 +100,34 @@ class GrainArrays {
   }
 
  private:
+  using Numbers =
+      std::variant<std::vector<Real>, std::vector<std::uint32_t>, std::vector<std::uint8_t>>;
+
+  static Numbers numbers_for(const GrainField& field) {
+    if (field.numbers == FieldNumbers::count) return std::vector<std::uint32_t>{};
+    if (field.numbers == FieldNumbers::flag) return std::vector<std::uint8_t>{};
+    return std::vector<Real>{};
+  }
+
   struct Column {
     const GrainField* field;
-    std::vector<Real> real;
-    std::vector<std::uint32_t> counts;
-    std::vector<std::uint8_t> flags;
+    Numbers numbers;
 
-    void append(const std::array<double, 4>& values) {
-      for (std::size_t n = 0; n < field->components; ++n) {
-        if (field->numbers == FieldNumbers::real) real.push_back(static_cast<Real>(values[n]));
-        if (field->numbers == FieldNumbers::count) {
-          counts.push_back(static_cast<std::uint32_t>(values[n]));
-        }
-        if (field->numbers == FieldNumbers::flag) {
-          flags.push_back(static_cast<std::uint8_t>(values[n]));
-        }
-      }
+    void append(const std::array<double, 4>& values, std::size_t times) {
+      std::visit(
+          [&](auto& to) {
+            using Number = typename std::decay_t<decltype(to)>::value_type;
+            for (; times > 0; --times) {
+              for (std::size_t n = 0; n < field->components; ++n) {
+                to.push_back(static_cast<Number>(values[n]));
+              }
+            }
+          },
+          numbers);
     }
     [[nodiscard]] VtkArray array() const {
-      if (field->numbers == FieldNumbers::count) {
-        return vtk_array(field->name, counts, field->components);
-      }
-      if (field->numbers == FieldNumbers::flag) {
-        return vtk_array(field->name, flags, field->components);
-      }
-      return vtk_array(field->name, real, field->components);
+      return std::visit(
+          [&](const auto& all) { return vtk_array(field->name, all, field->components); }, numbers);
     }
   };
 

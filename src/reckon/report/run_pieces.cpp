@@ -254,7 +254,7 @@ std::string RunPieces::head(const std::vector<std::uint64_t>& left_out) {
 }
 
 std::string RunPieces::frame(std::uint64_t step) {
-  const SavedFields fields = read_fields(folder_, step);
+  const SavedFields fields = read_fields(folder_, step, grain_fields());
   if (!shapes_) read_shapes(scene_of_run(folder_));
   for (const SavedGrain& grain : fields.grains) {
     if (shapes_->shapes.empty() || grain.shape.get() < shapes_->shapes.size()) continue;

@@ -42,7 +42,7 @@ struct SavedFields {
   std::uint64_t step{0};
   double time{0};                       ///< [s]
   std::vector<SavedGrain> grains;       ///< sorted by id
-  std::vector<SavedField> shown;        ///< fields with a label, as far as the file has them
+  std::vector<SavedField> shown;        ///< see read_fields; as far as the file has them
   bool has_contacts{false};             ///< whether the run wrote contacts (output.contacts)
   std::vector<ContactRecord> contacts;  ///< of pairs, then with walls
   std::vector<Vec3> wall_displacement;  ///< by wall, since time zero; empty where not known [m]
@@ -56,8 +56,9 @@ struct SavedFields {
 [[nodiscard]] SceneConfig scene_of_run(const RunFolder& folder);
 
 /// Reads the ParaView files that a run wrote at `step`. Throws Error when there are none, or when
-/// they are damaged or contradict each other.
+/// they are damaged or contradict each other. Of `table`, the fields with a label are read as
+/// `shown`, which the report page needs.
 [[nodiscard]] SavedFields read_fields(const RunFolder& folder, std::uint64_t step,
-                                      std::span<const GrainField> table = grain_fields());
+                                      std::span<const GrainField> table = {});
 
 }  // namespace reckon
