@@ -15,6 +15,7 @@
 #include "grains_parts.hpp"
 #include "reckon/avatar/library_file.hpp"
 #include "reckon/core/error.hpp"
+#include "reckon/text/csv_text.hpp"
 #include "reckon/text/units.hpp"
 
 namespace reckon::app {
@@ -37,17 +38,6 @@ Quantity parse_of_option(const std::string& option, std::string_view text) {
   } catch (const Error& error) {
     refuse(option, error.text().problem, error.text().reason, error.text().fix);
   }
-}
-
-/// What stands between commas.
-std::vector<std::string_view> parts_of(std::string_view text) {
-  std::vector<std::string_view> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
 }
 
 double parse_positive_number(const std::string& option, std::string_view text) {
@@ -82,7 +72,7 @@ double parse_length(const std::string& option, std::string_view text) {
 
 std::vector<double> parse_lengths(const std::string& option, std::string_view text,
                                   std::size_t count, std::size_t total) {
-  const std::vector<std::string_view> parts = parts_of(text);
+  const std::vector<std::string_view> parts = comma_separated(text);
   if (parts.size() != total) {
     refuse(option, fmt::format("'{}' has {} numbers", text, parts.size()),
            fmt::format("{} {} needed", total, total == 1 ? "is" : "are"),
@@ -99,7 +89,7 @@ std::vector<double> parse_lengths(const std::string& option, std::string_view te
 
 std::vector<double> parse_numbers(const std::string& option, std::string_view text) {
   std::vector<double> values;
-  for (const std::string_view part : parts_of(text)) {
+  for (const std::string_view part : comma_separated(text)) {
     const Quantity quantity = parse_of_option(option, part);
     if (quantity.dimension != Dimension{}) {
       refuse(option, fmt::format("'{}' is not a number", part), {}, "Give it without unit.");

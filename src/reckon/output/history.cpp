@@ -20,6 +20,7 @@
 #include "reckon/core/error.hpp"
 #include "reckon/core/file.hpp"
 #include "reckon/core/write_failure.hpp"
+#include "reckon/text/csv_text.hpp"
 #include "reckon/text/nearest_name.hpp"
 #include "reckon/text/text_reader.hpp"
 
@@ -61,15 +62,9 @@ std::vector<std::string> complete_lines(std::string_view text) {
   return lines;
 }
 
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> out;
-  std::size_t begin = 0;
-  for (std::size_t end = line.find(','); end != std::string::npos; end = line.find(',', begin)) {
-    out.push_back(line.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  out.push_back(line.substr(begin));
-  return out;
+std::vector<std::string> cells(std::string_view line) {
+  const std::vector<std::string_view> parts = comma_separated(line);
+  return {parts.begin(), parts.end()};
 }
 
 }  // namespace

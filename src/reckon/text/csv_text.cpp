@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/text/csv_text.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "reckon/core/utf8.hpp"
 
 namespace reckon {
@@ -19,6 +22,16 @@ std::string csv_text(std::string_view name) {
     if (letter == '"') quoted += letter;
   }
   return quoted + '"';
+}
+
+std::vector<std::string_view> comma_separated(std::string_view line) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    parts.push_back(line.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
 }
 
 }  // namespace reckon

@@ -8,6 +8,8 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "reckon/core/error.hpp"
 #include "reckon/results/run_record.hpp"
@@ -137,6 +139,13 @@ TEST(CsvText, KeepsNamesInOneCellAndNeverMakesAFormula) {
   EXPECT_EQ(csv_text("two\nlines"), "\"two\nlines\"");
   EXPECT_EQ(csv_text("=1+1"), "'=1+1");
   EXPECT_EQ(csv_text("@a,b"), "\"'@a,b\"");
+}
+
+TEST(CommaSeparated, HasOnePartMoreThanCommas) {
+  using Parts = std::vector<std::string_view>;
+  EXPECT_EQ(comma_separated(""), Parts{""});
+  EXPECT_EQ(comma_separated("1 mm"), Parts{"1 mm"});
+  EXPECT_EQ(comma_separated("a,,b,"), (Parts{"a", "", "b", ""}));
 }
 
 TEST(JsonText, IsUtf8Always) {
