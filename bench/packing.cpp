@@ -10,7 +10,7 @@
 #include "reckon/avatar/generator.hpp"
 #include "reckon/core/random.hpp"
 #include "reckon/neighbor/pair_list.hpp"
-#include "reckon/simulation/placement.hpp"
+#include "reckon/simulation/fill_region.hpp"
 
 namespace reckon::bench {
 namespace {

@@ -21,7 +21,7 @@ struct Rate {
   std::uint64_t ContactCounters::*count;
 };
 constexpr std::array rates{Rate{"pairs", &ContactCounters::pairs},
-                           Rate{"awake", &ContactCounters::awake},
+                           Rate{"due", &ContactCounters::due},
                            Rate{"touching_pairs", &ContactCounters::touching_pairs},
                            Rate{"touching_nodes", &ContactCounters::touching_nodes},
                            Rate{"tested_nodes", &ContactCounters::tested_nodes},

@@ -9,7 +9,7 @@
 
 #include "packing.hpp"
 #include "reckon/core/error.hpp"
-#include "reckon/simulation/placement.hpp"
+#include "reckon/simulation/fill_region.hpp"
 
 namespace reckon::bench {
 namespace {

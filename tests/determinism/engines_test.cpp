@@ -8,7 +8,7 @@
 #include <cmath>
 #include "reckon/core/random.hpp"
 #include "reckon/parallel/threads.hpp"
-#include "reckon/simulation/placement.hpp"
+#include "reckon/simulation/fill_region.hpp"
 #include "reckon/simulation/simulation.hpp"
 #include "support/same_state.hpp"
 #include "support/test_shapes.hpp"
@@ -141,7 +141,7 @@ Scene fast_spin() {
   return scene;
 }
 
-/// Runs both engines side by side. Returns how often the near engine let a pair sleep, and so on.
+/// Runs both engines side by side. Returns how often the near engine skipped a pair, and so on.
 ContactCounters expect_equal_engines(const Scene& scene, int steps) {
   SimulationSetup setup = scene.setup;
   setup.engine = ContactEngine::plain;
@@ -162,7 +162,7 @@ ContactCounters expect_equal_engines(const Scene& scene, int steps) {
   const ContactCounters& counters = near.grain_contacts().counters();
   EXPECT_GT(counters.touching_nodes, static_cast<std::uint64_t>(steps));
   EXPECT_EQ(counters.touching_nodes, plain.grain_contacts().counters().touching_nodes);
-  EXPECT_LT(counters.awake, counters.pairs / 10 * 9);
+  EXPECT_LT(counters.due, counters.pairs / 10 * 9);
   return counters;
 }
 
@@ -211,7 +211,8 @@ TEST(Engines, AgreeWhateverTheSkin) {
   }
 }
 
-/// A grain that crosses a field of resting ones uses its own budget up, a long one, not theirs.
+/// A grain that crosses a field of resting ones moves through its own skin, a thick one, not
+/// through theirs.
 TEST(Engines, OneFastGrainDoesNotEndEverybodysLists) {
   Scene scene{basic_setup({testing::sphere(1.0, 60, 12)}, area_law()), {}};
   scene.setup.body_force.gravity = {};

@@ -20,7 +20,7 @@
 #include "reckon/core/error.hpp"
 #include "reckon/domain/decomposition_names.hpp"
 #include "reckon/parallel/threads.hpp"
-#include "reckon/simulation/placement.hpp"
+#include "reckon/simulation/fill_region.hpp"
 #include "reckon/simulation/simulation.hpp"
 #include "support/test_shapes.hpp"
 

@@ -139,7 +139,7 @@ std::optional<Membrane::Held> Membrane::held(std::uint32_t node) const {
 
 /// Bonds and pressure. The pressure on a triangle goes to its corners in equal parts, which is
 /// minus the derivative of pressure times volume.
-void Membrane::add_sheet(std::uint32_t node, NodeForce& sum) const {
+void Membrane::add_sheet(std::uint32_t node, NodeLoad& sum) const {
   const auto around = mesh_.neighbors(node);
   const Vec3& here = state_.nodes[node].position;
   std::array<Vec3, 6> edges;
@@ -168,7 +168,7 @@ void Membrane::add_sheet(std::uint32_t node, NodeForce& sum) const {
   sum.volume = dot(here - foot(), outward) / 18;
 }
 
-void Membrane::add_contacts(std::uint32_t node, NodeForce& sum) const {
+void Membrane::add_contacts(std::uint32_t node, NodeLoad& sum) const {
   const auto springs = springs_of(node);
   auto old = springs.begin();
   const auto let_go = [&] {
@@ -192,14 +192,14 @@ void Membrane::evaluate(std::vector<MembraneTouch> touches, double pressure) {
   forces_.resize(mesh_.size());
   parallel_for(mesh_.size(), 512, [&](std::size_t n) {
     const auto node = static_cast<std::uint32_t>(n);
-    NodeForce sum;
+    NodeLoad sum;
     add_sheet(node, sum);
     add_contacts(node, sum);
     forces_[n] = sum;
   });
   // Cones over all triangles, from the foot; the floor has the foot in it.
   volume_ = 0;
-  for (const NodeForce& force : forces_) volume_ += force.volume;
+  for (const NodeLoad& force : forces_) volume_ += force.volume;
   double lid_area = 0;  // twice
   const auto last_ring = static_cast<std::uint32_t>(mesh_.size()) - mesh_.columns();
   const Vec3 middle = foot() + height() * state_.start.axis_unit;
@@ -230,7 +230,7 @@ void Membrane::advance(double time_step) {
     const auto node = static_cast<std::uint32_t>(n);
     MembraneNode& moving = state_.nodes[n];
     const Vec3 after = velocity_after(node, time_step);
-    const NodeForce& force = forces_[n];
+    const NodeLoad& force = forces_[n];
     Vec3 own = 0.5 * (moving.velocity + after);  // at the step
     Vec3 carried;                                // by a plane, which is not its own
     if (const auto holder = held(node)) {

@@ -138,7 +138,7 @@ class Membrane {
   [[nodiscard]] bool is_finite() const;
 
  private:
-  struct NodeForce {
+  struct NodeLoad {
     Vec3 total;        // [N]
     Vec3 pressure;     // of it [N]
     double stored{0};  // in bonds [J]
@@ -156,8 +156,8 @@ class Membrane {
   }
   [[nodiscard]] Vec3 foot() const;
   [[nodiscard]] double height() const;
-  void add_sheet(std::uint32_t node, NodeForce& sum) const;
-  void add_contacts(std::uint32_t node, NodeForce& sum) const;
+  void add_sheet(std::uint32_t node, NodeLoad& sum) const;
+  void add_contacts(std::uint32_t node, NodeLoad& sum) const;
   [[nodiscard]] Enclosure enclosure_of(double volume, double height, const Vec3& foot,
                                        std::size_t wall_count) const;
 
@@ -170,7 +170,7 @@ class Membrane {
 
   std::vector<MembraneTouch> touches_;      // by node, then grain
   std::vector<std::uint32_t> first_touch_;  // per node, and one past the end
-  std::vector<NodeForce> forces_;
+  std::vector<NodeLoad> forces_;
   double pressure_{0};
   double volume_{0};
 };

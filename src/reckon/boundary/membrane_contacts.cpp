@@ -7,14 +7,14 @@
 #include <cmath>
 
 #include "reckon/contact/pair_kernel.hpp"
-#include "reckon/contact/wake_list.hpp"
+#include "reckon/contact/verlet_node_list.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
 namespace {
 
 /// How far grains and nodes may each go before lists are made anew, in spacings.
-constexpr double budget_in_spacings = 0.25;
+constexpr double half_skin_in_spacings = 0.25;
 
 /// Nodes sorted into cubes.
 class NodeBins {
@@ -117,9 +117,9 @@ Look look(const GrainFrame& grain, const Vec3& lever) {
 bool MembraneContacts::lists_serve(const Membrane& membrane, std::span<const GrainFrame> frames) {
   const std::span<const MembraneNode> nodes = membrane.nodes();
   if (listed_grains_.size() != frames.size() || listed_nodes_.size() != nodes.size()) return false;
-  const double budget = budget_in_spacings * membrane.setup().spacing;
+  const double half_skin = half_skin_in_spacings * membrane.setup().spacing;
   const auto is_far = [&](const Vec3& from, const Vec3& to) {
-    return squared_norm(to - from) < budget * budget ? 0.0 : 1.0;  // not a number: far
+    return squared_norm(to - from) < half_skin * half_skin ? 0.0 : 1.0;  // not a number: far
   };
   const double grain_is_far = parallel_max(frames.size(), 0, [&](std::size_t s) {
     return is_far(listed_grains_[s], frames[s].position);
@@ -132,7 +132,7 @@ bool MembraneContacts::lists_serve(const Membrane& membrane, std::span<const Gra
 
 void MembraneContacts::make_lists(const Membrane& membrane, std::span<const GrainFrame> frames) {
   const std::span<const MembraneNode> nodes = membrane.nodes();
-  const double skin = 2 * budget_in_spacings * membrane.setup().spacing;
+  const double skin = 2 * half_skin_in_spacings * membrane.setup().spacing;
   double largest = 0;
   for (const GrainFrame& frame : frames) largest = std::max(largest, frame.shape->bounding_radius);
   candidates_.clear();
@@ -142,14 +142,14 @@ void MembraneContacts::make_lists(const Membrane& membrane, std::span<const Grai
   for (const MembraneNode& node : nodes) listed_nodes_.push_back(node.position);
   for (const GrainFrame& frame : frames) listed_grains_.push_back(frame.position);
   seen_nodes_ = listed_nodes_;
-  node_travelled_.assign(nodes.size(), 0);
+  node_path_lengths_.assign(nodes.size(), 0);
   const NodeBins bins{nodes, largest + skin};
   for (std::uint32_t slot = 0; slot < frames.size(); ++slot) {
     const auto first = static_cast<std::uint32_t>(nodes_.size());
     const double reach = frames[slot].shape->bounding_radius + skin;
     bins.around(frames[slot].position, reach, [&](std::uint32_t node) {
       const double distance_squared = squared_norm(nodes[node].position - frames[slot].position);
-      if (distance_squared < reach * reach) nodes_.push_back({node, wake_always});
+      if (distance_squared < reach * reach) nodes_.push_back({node, check_always});
     });
     const auto count = static_cast<std::uint32_t>(nodes_.size()) - first;
     if (count == 0) continue;
@@ -162,7 +162,7 @@ void MembraneContacts::make_lists(const Membrane& membrane, std::span<const Grai
 }
 
 void MembraneContacts::evaluate_candidate(std::size_t c, const Membrane& membrane,
-                                          const GrainFrame& grain, bool may_sleep, double travelled,
+                                          const GrainFrame& grain, bool may_skip, double travelled,
                                           double time_step, Scratch& scratch) {
   const double margin = 1e-6 * membrane.setup().spacing;  // far above any rounding
   std::vector<Touch>& found = scratch.found;
@@ -170,11 +170,11 @@ void MembraneContacts::evaluate_candidate(std::size_t c, const Membrane& membran
   const Candidate& candidate = candidates_[c];
   for (std::uint32_t n = candidate.first; n < candidate.first + candidate.count; ++n) {
     Near& near = nodes_[n];
-    const double odometer = travelled + node_travelled_[near.node];
-    if (may_sleep && odometer < near.wake) continue;
+    const double path_length = travelled + node_path_lengths_[near.node];
+    if (may_skip && path_length < near.next_check) continue;
     const Vec3 lever = membrane.nodes()[near.node].position - grain.position;
     const Look at = look(grain, lever);
-    near.wake = may_sleep ? odometer + std::max(at.clearance - margin, 0.0) : wake_always;
+    near.next_check = may_skip ? path_length + std::max(at.clearance - margin, 0.0) : check_always;
     if (!(at.phi < 0)) continue;
     found.push_back({near.node, at.phi, at.gradient_world, lever, membrane.mesh().area(near.node)});
   }
@@ -199,8 +199,8 @@ void MembraneContacts::evaluate_candidate(std::size_t c, const Membrane& membran
     }
     const Vec3 velocity = membrane.nodes()[touch.node].velocity - grain.velocity -
                           cross(grain.angular_velocity_world, touch.lever_world);
-    const NodeResponse node =
-        membrane.setup().contact.respond(context, touch, normal, velocity, spring);
+    const NodeForce node =
+        membrane.setup().contact.node_force(context, touch, normal, velocity, spring);
     scratch.touches.push_back(
         {{touch.node, grain.id, node.shear_force, normal, node.dashpot_push}, node.force});
     sum.force -= node.force;
@@ -218,7 +218,7 @@ void MembraneContacts::evaluate_candidate(std::size_t c, const Membrane& membran
 }
 
 void MembraneContacts::evaluate(const Membrane& membrane, std::span<const GrainFrame> frames,
-                                const MotionMeter& meter, double time_step) {
+                                const DisplacementBound& displacements, double time_step) {
   if (frames.empty()) {
     candidates_.clear();
     forces_.clear();
@@ -229,16 +229,16 @@ void MembraneContacts::evaluate(const Membrane& membrane, std::span<const GrainF
   const std::span<const MembraneNode> nodes = membrane.nodes();
   parallel_for(nodes.size(), 1024, [&](std::size_t n) {
     const double moved = norm(nodes[n].position - seen_nodes_[n]);
-    node_travelled_[n] = (node_travelled_[n] + moved) * (1 + 1e-14);
+    node_path_lengths_[n] = (node_path_lengths_[n] + moved) * (1 + 1e-14);
     seen_nodes_[n] = nodes[n].position;
   });
-  const bool may_sleep = engine_ == ContactEngine::near && meter.trustworthy();
+  const bool may_skip = engine_ == ContactEngine::near && displacements.trustworthy();
   scratch_.resize(static_cast<std::size_t>(thread_count()));
   for (Scratch& scratch : scratch_) scratch.touches.clear();
   parallel_for(candidates_.size(), 16, [&](std::size_t c) {
     const std::uint32_t slot = candidates_[c].slot;
-    evaluate_candidate(c, membrane, frames[slot], may_sleep,
-                       may_sleep ? meter.travelled()[slot] : 0, time_step,
+    evaluate_candidate(c, membrane, frames[slot], may_skip,
+                       may_skip ? displacements.path_lengths()[slot] : 0, time_step,
                        scratch_[static_cast<std::size_t>(thread_index())]);
   });
 }

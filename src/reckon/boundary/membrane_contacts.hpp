@@ -9,7 +9,7 @@
 #include "reckon/boundary/membrane.hpp"
 #include "reckon/contact/contact_counters.hpp"
 #include "reckon/contact/contact_settings.hpp"
-#include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/displacement_bound.hpp"
 #include "reckon/grains/grain_frame.hpp"
 
 namespace reckon {
@@ -37,9 +37,9 @@ class MembraneContacts {
 
   /// To be called when slots hold other grains than before.
   void forget() { listed_grains_.clear(); }
-  /// `meter` has followed these frames, slot by slot; the plain engine does not look at it.
+  /// `displacements` has followed these frames, slot by slot; the plain engine does not look at it.
   void evaluate(const Membrane& membrane, std::span<const GrainFrame> frames,
-                const MotionMeter& meter, double time_step);
+                const DisplacementBound& displacements, double time_step);
   void add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const;
 
   /// Of this rank, as of the last evaluate(); to be shared with all ranks.
@@ -57,7 +57,7 @@ class MembraneContacts {
   };
   struct Near {
     std::uint32_t node;
-    double wake;  // no touch before both odometers together say so [m]
+    double next_check;  // no touch before the sum of both path lengths reaches it [m]
   };
   struct alignas(64) Scratch {
     std::vector<MembraneTouch> touches;
@@ -67,15 +67,15 @@ class MembraneContacts {
   [[nodiscard]] bool lists_serve(const Membrane& membrane, std::span<const GrainFrame> frames);
   void make_lists(const Membrane& membrane, std::span<const GrainFrame> frames);
   void evaluate_candidate(std::size_t c, const Membrane& membrane, const GrainFrame& grain,
-                          bool may_sleep, double travelled, double time_step, Scratch& scratch);
+                          bool may_skip, double travelled, double time_step, Scratch& scratch);
 
   ContactEngine engine_;
   std::vector<Candidate> candidates_;
   std::vector<Near> nodes_;
-  std::vector<Vec3> listed_grains_;     // where all grains were [m]
-  std::vector<Vec3> listed_nodes_;      // where all nodes were [m]
-  std::vector<Vec3> seen_nodes_;        // where they were at the last evaluation [m]
-  std::vector<double> node_travelled_;  // since lists were made [m]
+  std::vector<Vec3> listed_grains_;        // where all grains were [m]
+  std::vector<Vec3> listed_nodes_;         // where all nodes were [m]
+  std::vector<Vec3> seen_nodes_;           // where they were at the last evaluation [m]
+  std::vector<double> node_path_lengths_;  // since lists were made [m]
   std::vector<MembraneForce> forces_;
   std::vector<Scratch> scratch_;
   std::uint64_t lists_made_{0};

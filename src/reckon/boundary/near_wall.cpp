@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/displacement_bound.hpp"
 #include "reckon/contact/near_skin.hpp"
 #include "reckon/contact/sphere_contact.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 
 /// Far more than the rounding of places and distances, walls being at most so far from the origin.
 double rounding_margin(const GrainFrame& grain, const Wall& wall, const WallPose& pose,
-                       double odometer) {
+                       double path_length) {
   const double size = std::visit(
       [&](const auto& surface) {
         const Vec3 from_wall = grain.position - pose.displacement - surface.point;
@@ -23,7 +23,7 @@ double rounding_margin(const GrainFrame& grain, const Wall& wall, const WallPose
       },
       wall.surface);
   return 1e-12 * grain.shape->bounding_radius +
-         32 * std::numeric_limits<double>::epsilon() * (odometer + size);
+         32 * std::numeric_limits<double>::epsilon() * (path_length + size);
 }
 
 /// Tests one node and hands it on when it touches. Returns its distance.
@@ -80,53 +80,55 @@ void find_wall_touches(const GrainFrame& grain, const Wall& wall, const WallPose
 }
 
 double NearWall::find_touches(const GrainFrame& grain, const Wall& wall, const WallPose& pose,
-                              double odometer, std::vector<Touch>& touches,
+                              double path_length, std::vector<Touch>& touches,
                               ContactCounters& counters) {
-  const double margin = rounding_margin(grain, wall, pose, odometer);
+  const double margin = rounding_margin(grain, wall, pose, path_length);
   const double from_center = distance(wall, pose, grain.position);
   if (is_sphere_on_plane(grain, wall)) {
     touch_plane(grain, wall, from_center, touches);
     const double apart = from_center - grain.shape->sphere_radius - margin;
-    return from_center < grain.shape->sphere_radius ? wake_always : odometer + std::max(apart, 0.0);
+    return from_center < grain.shape->sphere_radius ? check_always
+                                                    : path_length + std::max(apart, 0.0);
   }
   const double radius = list_.exists() ? list_.partner().radius : grain.shape->bounding_radius;
-  if (!(from_center < radius)) return odometer + std::max(from_center - radius - margin, 0.0);
-  if (!list_.complete_at(odometer)) {
+  if (!(from_center < radius)) return path_length + std::max(from_center - radius - margin, 0.0);
+  if (!list_.complete_at(path_length)) {
     ++counters.lists_checked;
     const Pose now{grain.position - pose.displacement, grain.rotation};
-    if (!still_complete(now, odometer, margin)) make(grain, wall, now, odometer, margin, counters);
+    if (!still_complete(now, path_length, margin))
+      make(grain, wall, now, path_length, margin, counters);
   }
   return std::visit(
       [&](const auto& surface) {
         const Vec3 center = grain.position - pose.displacement;
-        return list_.look(odometer, touches, [&](Node& node) {
+        return list_.look(path_length, touches, [&](Node& node) {
           ++counters.tested_nodes;
           const double phi = test_node(grain, wall, surface, center, node.node, node.place_body,
                                        node.area, touches);
-          return phi < 0 ? wake_always : odometer + std::max(phi - margin, 0.0);
+          return phi < 0 ? check_always : path_length + std::max(phi - margin, 0.0);
         });
       },
       wall.surface);
 }
 
-bool NearWall::still_complete(const Pose& pose, double odometer, double margin) {
+bool NearWall::still_complete(const Pose& pose, double path_length, double margin) {
   if (!list_.exists()) return false;
   const Pose& made = list_.reference();
   const double moved = norm(pose.offset - made.offset) +
                        list_.partner().radius * turn_distance(made.rotation, pose.rotation);
   if (!(moved < list_lifetime * list_.rest())) return false;
-  list_.set_complete_until(odometer + (list_.rest() - moved) - margin);
+  list_.set_complete_until(path_length + (list_.rest() - moved) - margin);
   return true;
 }
 
-void NearWall::make(const GrainFrame& grain, const Wall& wall, const Pose& pose, double odometer,
+void NearWall::make(const GrainFrame& grain, const Wall& wall, const Pose& pose, double path_length,
                     double margin, ContactCounters& counters) {
   const ShapeView& shape = *grain.shape;
   const double skin = list_skin(shape);
-  double rest = wake_never;
+  double rest = check_never;
   struct Found {
     Node node;
-    double wake;
+    double next_check;
   };
   thread_local std::vector<Found> found;
   found.clear();
@@ -149,15 +151,16 @@ void NearWall::make(const GrainFrame& grain, const Wall& wall, const Pose& pose,
               continue;
             }
             found.push_back({{shape.nodes.position(n), shape.nodes.area[n], n},
-                             odometer + std::max(node_bound, 0.0)});
+                             path_length + std::max(node_bound, 0.0)});
           }
         }
       },
       wall.surface);
   ++counters.lists_made;
   counters.listed_nodes += found.size();
-  list_.restart({shape.bounding_radius}, pose, odometer, rest, found.size());
-  for (std::size_t n = 0; n < found.size(); ++n) list_.set_node(n, found[n].node, found[n].wake);
+  list_.restart({shape.bounding_radius}, pose, path_length, rest, found.size());
+  for (std::size_t n = 0; n < found.size(); ++n)
+    list_.set_node(n, found[n].node, found[n].next_check);
 }
 
 }  // namespace reckon

@@ -7,19 +7,19 @@
 #include "reckon/boundary/wall.hpp"
 #include "reckon/contact/contact_counters.hpp"
 #include "reckon/contact/touch.hpp"
-#include "reckon/contact/wake_list.hpp"
+#include "reckon/contact/verlet_node_list.hpp"
 #include "reckon/grains/grain_frame.hpp"
 
 namespace reckon {
 
 /// The nodes of one grain that are near one wall: what NearList is for two grains. A wall's
-/// distance has slope one, so it is a clearance as it stands. The odometer is what the grain and
-/// the wall have travelled together.
+/// distance has slope one, so it is a clearance as it stands. The path length is that of the grain
+/// plus that of the wall.
 class NearWall {
  public:
   /// As NearList::find_touches; the same bits as find_wall_touches.
   double find_touches(const GrainFrame& grain, const Wall& wall, const WallPose& pose,
-                      double odometer, std::vector<Touch>& touches, ContactCounters& counters);
+                      double path_length, std::vector<Touch>& touches, ContactCounters& counters);
 
   void prefetch() const { list_.prefetch(); }
   /// Memory held, besides the object.
@@ -39,11 +39,11 @@ class NearWall {
     NodeIndex node{0};
   };
 
-  [[nodiscard]] bool still_complete(const Pose& pose, double odometer, double margin);
-  void make(const GrainFrame& grain, const Wall& wall, const Pose& pose, double odometer,
+  [[nodiscard]] bool still_complete(const Pose& pose, double path_length, double margin);
+  void make(const GrainFrame& grain, const Wall& wall, const Pose& pose, double path_length,
             double margin, ContactCounters& counters);
 
-  WakeList<Grain, Pose, Node> list_;
+  VerletNodeList<Grain, Pose, Node> list_;
 };
 
 /// The plain finder: every node of the grain, in order, against the wall.

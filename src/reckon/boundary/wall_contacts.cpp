@@ -9,7 +9,7 @@
 
 #include "reckon/contact/near_skin.hpp"
 #include "reckon/contact/pair_kernel.hpp"
-#include "reckon/contact/visit_awake.hpp"
+#include "reckon/contact/visit_due.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
@@ -55,13 +55,13 @@ void WallContacts::set_friction(std::span<const double> friction) {
   for (std::size_t w = 0; w < walls_.size(); ++w) walls_[w].friction = friction[w];
 }
 
-void WallContacts::rebuild(std::span<const GrainFrame> frames, const MotionBudget& budget) {
+void WallContacts::rebuild(std::span<const GrainFrame> frames, const AdaptiveSkin& skin) {
   std::map<std::pair<GrainId, WallId>, std::size_t> old_place;
   for (std::size_t c = 0; c < candidates_.size(); ++c) {
     old_place[{candidates_[c].grain, candidates_[c].wall}] = c;
   }
   const auto old_springs = std::exchange(springs_of_candidate_, {});
-  const auto old_wake = std::exchange(wake_, {});
+  const auto old_next_check = std::exchange(next_check_, {});
   auto old_near = std::exchange(near_, {});
   candidates_.clear();
   first_of_slot_.assign(1, 0);
@@ -69,19 +69,19 @@ void WallContacts::rebuild(std::span<const GrainFrame> frames, const MotionBudge
     for (std::uint32_t w = 0; w < walls_.size(); ++w) {
       if (removed_[w]) continue;
       const double reach = frames[slot].shape->bounding_radius +
-                           budget.of(frames[slot].velocity, frames[slot].position) +
-                           budget.of(poses_[w].velocity);
+                           skin.of(frames[slot].velocity, frames[slot].position) +
+                           skin.of(poses_[w].velocity);
       if (!(distance(walls_[w], poses_[w], frames[slot].position) < reach)) continue;
       candidates_.push_back({slot, WallId{w}, frames[slot].id});
       const auto found = old_place.find({frames[slot].id, WallId{w}});
       const bool known = found != old_place.end();
       springs_of_candidate_.push_back(known ? old_springs[found->second] : SpringRange{});
-      wake_.push_back(known ? old_wake[found->second] : wake_always);
+      next_check_.push_back(known ? old_next_check[found->second] : check_always);
       near_.push_back(known ? std::move(old_near[found->second]) : NearWall{});
     }
     first_of_slot_.push_back(static_cast<std::uint32_t>(candidates_.size()));
   }
-  // A sleeping candidate writes neither.
+  // A candidate that is skipped writes neither.
   new_springs_of_candidate_.assign(candidates_.size(), {});
   forces_.assign(candidates_.size(), {});
 }
@@ -89,8 +89,8 @@ void WallContacts::rebuild(std::span<const GrainFrame> frames, const MotionBudge
 void WallContacts::follow_walls() {
   seen_displacement_.resize(walls_.size());
   for (std::size_t w = 0; w < walls_.size(); ++w) {
-    travelled_[w] += norm(poses_[w].displacement - seen_displacement_[w]);
-    travelled_[w] *= 1 + 4 * std::numeric_limits<double>::epsilon();
+    path_lengths_[w] += norm(poses_[w].displacement - seen_displacement_[w]);
+    path_lengths_[w] *= 1 + 4 * std::numeric_limits<double>::epsilon();
     seen_displacement_[w] = poses_[w].displacement;
   }
 }
@@ -102,10 +102,11 @@ PairContext WallContacts::context_of(std::size_t c, const GrainFrame& grain,
           .time_step = time_step};
 }
 
-/// As in GrainContacts: both spring buffers must be empty before a candidate may sleep.
-void WallContacts::settle(std::size_t c, double wake, bool had_springs, ContactCounters& counters) {
-  wake_[c] = had_springs ? wake_always : wake;
-  ++counters.awake;
+/// As in GrainContacts: both spring buffers must be empty before a candidate may be skipped.
+void WallContacts::settle(std::size_t c, double next_check, bool had_springs,
+                          ContactCounters& counters) {
+  next_check_[c] = had_springs ? check_always : next_check;
+  ++counters.due;
   counters.touching_nodes += forces_[c].touching;
   if (forces_[c].touching > 0) ++counters.touching_pairs;
 }
@@ -124,35 +125,35 @@ void WallContacts::evaluate_plainly(std::size_t c, const GrainFrame& grain, doub
         [&](const auto& law) {
           Mat3 first_moment;
           const DirectedForce directed =
-              respond(law, context, grain.position, motion_of(grain), motion_of(pose, grain),
-                      scratch.touches, old_springs, false, 1, arena, &first_moment);
+              pair_force(law, context, grain.position, motion_of(grain), motion_of(pose, grain),
+                         scratch.touches, old_springs, false, 1, arena, &first_moment);
           forces_[c] = force_of(directed, overlap_of(grain, wall, pose, directed), first_moment,
                                 pose.velocity, time_step);
         },
         wall.law);
   });
-  settle(c, wake_always, !old_springs.empty(), scratch.counters);
+  settle(c, check_always, !old_springs.empty(), scratch.counters);
 }
 
 /// Finds the touching nodes of a candidate by its near list and lets them wait for their law.
 void WallContacts::find_nodes(std::size_t c, const GrainFrame& grain, double time_step,
-                              double odometer, Scratch& scratch) {
+                              double path_length, Scratch& scratch) {
   const std::uint32_t w = candidates_[c].wall.get();
   const auto old_springs = store_.read(springs_of_candidate_[c]);
   scratch.touches.clear();
-  const double wake = near_[c].find_touches(grain, walls_[w], poses_[w], odometer, scratch.touches,
-                                            scratch.counters);
+  const double next_check = near_[c].find_touches(grain, walls_[w], poses_[w], path_length,
+                                                  scratch.touches, scratch.counters);
   const std::size_t member =
       scratch.batches[w].add(context_of(c, grain, time_step), grain.position, motion_of(grain),
                              motion_of(poses_[w], grain), scratch.touches, old_springs);
-  scratch.waiting.push_back({c, member, wake});
+  scratch.waiting.push_back({c, member, next_check});
 }
 
 /// The forces of the candidates that wait.
 void WallContacts::answer_waiting(std::span<const GrainFrame> frames, double time_step,
                                   Scratch& scratch) {
   for (std::size_t w = 0; w < walls_.size(); ++w) {
-    scratch.batches[w].respond(walls_[w].law, walls_[w].friction, time_step, lanes_);
+    scratch.batches[w].evaluate(walls_[w].law, walls_[w].friction, time_step, lanes_);
   }
   for (const Waiting& waiting : scratch.waiting) {
     const std::size_t c = waiting.candidate;
@@ -170,18 +171,18 @@ void WallContacts::answer_waiting(std::span<const GrainFrame> frames, double tim
           },
           walls_[w].law);
     });
-    settle(c, waiting.wake, !old_springs.empty(), scratch.counters);
+    settle(c, waiting.next_check, !old_springs.empty(), scratch.counters);
   }
   scratch.waiting.clear();
   for (TouchBatch& batch : scratch.batches) batch.clear();
 }
 
-void WallContacts::evaluate(std::span<const GrainFrame> frames, const MotionMeter& meter,
-                            double time_step) {
+void WallContacts::evaluate(std::span<const GrainFrame> frames,
+                            const DisplacementBound& displacements, double time_step) {
   follow_walls();
-  const bool use_near_lists = engine_ == ContactEngine::near && meter.trustworthy();
+  const bool use_near_lists = engine_ == ContactEngine::near && displacements.trustworthy();
   if (!use_near_lists) {
-    std::fill(wake_.begin(), wake_.end(), wake_always);
+    std::fill(next_check_.begin(), next_check_.end(), check_always);
     for (NearWall& list : near_) list = {};
   }
   store_.begin_writing(thread_count());
@@ -191,17 +192,18 @@ void WallContacts::evaluate(std::span<const GrainFrame> frames, const MotionMete
     return scratch_[static_cast<std::size_t>(thread_index())];
   };
   if (use_near_lists) {
-    visit_awake(
-        wake_, [](std::size_t) { return true; },
+    visit_due(
+        next_check_, [](std::size_t) { return true; },
         [&](std::size_t c) {
-          return meter.travelled()[candidates_[c].slot] + travelled_[candidates_[c].wall.get()];
+          return displacements.path_lengths()[candidates_[c].slot] +
+                 path_lengths_[candidates_[c].wall.get()];
         },
         [&](std::size_t c) {
           near_[c].prefetch();
           prefetch_frame(frames[candidates_[c].slot]);
         },
-        [&](std::size_t c, double odometer) {
-          find_nodes(c, frames[candidates_[c].slot], time_step, odometer, scratch());
+        [&](std::size_t c, double path_length) {
+          find_nodes(c, frames[candidates_[c].slot], time_step, path_length, scratch());
         },
         [&] { answer_waiting(frames, time_step, scratch()); });
   } else {
@@ -234,7 +236,7 @@ void WallContacts::commit() {
 std::size_t WallContacts::bytes() const {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   std::size_t sum = of(candidates_) + of(first_of_slot_) + of(springs_of_candidate_) +
-                    of(new_springs_of_candidate_) + of(forces_) + of(wake_) + of(near_) +
+                    of(new_springs_of_candidate_) + of(forces_) + of(next_check_) + of(near_) +
                     store_.bytes();
   for (const NearWall& list : near_) sum += list.bytes();
   return sum;
@@ -258,7 +260,7 @@ void WallContacts::adopt(std::span<const WallSprings> springs) {
     candidates_.push_back({0, entry.wall, entry.grain});
     springs_of_candidate_.push_back(store_.adopt(entry.springs));
   }
-  wake_.resize(candidates_.size(), wake_always);
+  next_check_.resize(candidates_.size(), check_always);
   near_.resize(candidates_.size());
 }
 

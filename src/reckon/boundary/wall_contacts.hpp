@@ -8,12 +8,12 @@
 #include "reckon/boundary/near_wall.hpp"
 #include "reckon/boundary/wall.hpp"
 #include "reckon/contact/contact_counters.hpp"
-#include "reckon/contact/history.hpp"
-#include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/displacement_bound.hpp"
+#include "reckon/contact/spring_store.hpp"
 #include "reckon/contact/touch.hpp"
 #include "reckon/contact/touch_batch.hpp"
 #include "reckon/grains/grain_frame.hpp"
-#include "reckon/neighbor/motion_budget.hpp"
+#include "reckon/neighbor/adaptive_skin.hpp"
 
 namespace reckon {
 
@@ -45,7 +45,8 @@ struct WallSprings {
 };
 
 /// Contacts between grains and walls. Used like GrainContacts; loads are to be added after those of
-/// the grains, a grain's walls in the order of the scene. Candidates sleep as pairs of grains do.
+/// the grains, a grain's walls in the order of the scene. Candidates are skipped as pairs of grains
+/// are.
 class WallContacts {
  public:
   explicit WallContacts(std::vector<Wall> walls, ContactEngine engine = ContactEngine::near,
@@ -54,7 +55,7 @@ class WallContacts {
         engine_{engine},
         lanes_{law_lanes(simd)},
         removed_(walls_.size(), false),
-        travelled_(walls_.size(), 0.0) {}
+        path_lengths_(walls_.size(), 0.0) {}
 
   /// Places the walls for one step; `driven` as for poses_at. To be called before rebuild and
   /// evaluate.
@@ -64,10 +65,11 @@ class WallContacts {
   /// Takes a wall away, with its springs, from the next rebuild on.
   void remove(WallId wall) { removed_[wall.get()] = true; }
   [[nodiscard]] bool is_removed(WallId wall) const { return removed_[wall.get()]; }
-  /// Lists the grains that can meet a wall before they or it used up their budgets.
-  void rebuild(std::span<const GrainFrame> frames, const MotionBudget& budget);
-  /// `meter` has followed these frames, slot by slot; the plain engine does not look at it.
-  void evaluate(std::span<const GrainFrame> frames, const MotionMeter& meter, double time_step);
+  /// Lists the grains that can meet a wall before they or it have moved through their skins.
+  void rebuild(std::span<const GrainFrame> frames, const AdaptiveSkin& skin);
+  /// `displacements` has followed these frames, slot by slot; the plain engine does not look at it.
+  void evaluate(std::span<const GrainFrame> frames, const DisplacementBound& displacements,
+                double time_step);
   void add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const;
   void commit();
 
@@ -98,7 +100,7 @@ class WallContacts {
   struct Waiting {
     std::size_t candidate;
     std::size_t member;
-    double wake;
+    double next_check;
   };
   struct alignas(64) Scratch {
     std::vector<Touch> touches;
@@ -110,10 +112,10 @@ class WallContacts {
   [[nodiscard]] PairContext context_of(std::size_t c, const GrainFrame& grain,
                                        double time_step) const;
   void evaluate_plainly(std::size_t c, const GrainFrame& grain, double time_step, Scratch& scratch);
-  void find_nodes(std::size_t c, const GrainFrame& grain, double time_step, double odometer,
+  void find_nodes(std::size_t c, const GrainFrame& grain, double time_step, double path_length,
                   Scratch& scratch);
   void answer_waiting(std::span<const GrainFrame> frames, double time_step, Scratch& scratch);
-  void settle(std::size_t c, double wake, bool had_springs, ContactCounters& counters);
+  void settle(std::size_t c, double next_check, bool had_springs, ContactCounters& counters);
 
   std::vector<Wall> walls_;
   ContactEngine engine_;
@@ -128,8 +130,8 @@ class WallContacts {
   SpringStore store_;
 
   std::vector<Vec3> seen_displacement_;  // per wall, at the last evaluate()
-  std::vector<double> travelled_;        // per wall [m]
-  std::vector<double> wake_;             // per candidate
+  std::vector<double> path_lengths_;     // per wall [m]
+  std::vector<double> next_check_;       // per candidate
   std::vector<NearWall> near_;           // per candidate
   std::vector<Scratch> scratch_;
   ContactCounters counters_;

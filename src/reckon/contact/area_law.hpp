@@ -28,7 +28,7 @@ struct AreaLaw {
   double dashpot_factor{0};    ///< see area_dashpot_factor; 0: none
   double viscosity{0};         ///< eta [N s/m^3]
 
-  [[nodiscard]] NodeResponse respond(const PairContext& context, const Touch& touch,
+  [[nodiscard]] NodeForce node_force(const PairContext& context, const Touch& touch,
                                      const Vec3& normal, const Vec3& velocity,
                                      const ShearSpring& spring) const {
     const double steepness = norm(touch.gradient_world);

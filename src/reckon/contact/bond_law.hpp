@@ -61,8 +61,8 @@ struct BondLaw {
   double shear_strength{0};    ///< [Pa]
   double radius_share{0};      ///< R over the radius of the smaller grain's sphere of equal volume
 
-  [[nodiscard]] BondForce respond(const Bond& bond, const GrainFrame& a,
-                                  const GrainFrame& b) const {
+  [[nodiscard]] BondForce bond_force(const Bond& bond, const GrainFrame& a,
+                                     const GrainFrame& b) const {
     const Vec3 lever_b = b.rotation * bond.arm_b;
     const Vec3 lever_a = (b.position - a.position) + lever_b;  // of b's face, where all forces act
     const Vec3 gap = transposed_times(a.rotation, lever_a) - bond.arm_a;

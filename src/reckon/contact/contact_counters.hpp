@@ -11,7 +11,7 @@ namespace reckon {
 struct ContactCounters {
   std::uint64_t evaluations{0};   ///< calls of evaluate()
   std::uint64_t pairs{0};         ///< listed
-  std::uint64_t awake{0};         ///< pairs that could not be skipped
+  std::uint64_t due{0};           ///< pairs that could not be skipped
   std::uint64_t tested_nodes{0};  ///< phi looked up
   std::uint64_t cells_read{0};    ///< of which the grid was read for
   std::uint64_t touching_pairs{0};
@@ -24,7 +24,7 @@ struct ContactCounters {
   ContactCounters& operator+=(const ContactCounters& b) {
     evaluations += b.evaluations;
     pairs += b.pairs;
-    awake += b.awake;
+    due += b.due;
     tested_nodes += b.tested_nodes;
     cells_read += b.cells_read;
     touching_pairs += b.touching_pairs;
@@ -39,7 +39,7 @@ struct ContactCounters {
   [[nodiscard]] ContactCounters operator-(const ContactCounters& b) const {
     return {evaluations - b.evaluations,
             pairs - b.pairs,
-            awake - b.awake,
+            due - b.due,
             tested_nodes - b.tested_nodes,
             cells_read - b.cells_read,
             touching_pairs - b.touching_pairs,

@@ -11,7 +11,7 @@
 #include "reckon/contact/near_skin.hpp"
 #include "reckon/contact/pair_kernel.hpp"
 #include "reckon/contact/sphere_contact.hpp"
-#include "reckon/contact/visit_awake.hpp"
+#include "reckon/contact/visit_due.hpp"
 #include "reckon/parallel/threads.hpp"
 
 namespace reckon {
@@ -86,7 +86,7 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
 
   std::vector<Pair> listed(pairs.size());
   std::vector<SpringRange> springs(pairs.size());
-  std::vector<double> wake(pairs.size(), wake_always);
+  std::vector<double> next_check(pairs.size(), check_always);
   std::vector<NearPair> near(pairs.size());
   std::vector<Vec3> images(cell_ ? pairs.size() : 0);
   const auto old_bonds = std::exchange(bonds_, {});
@@ -105,7 +105,7 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
     if (old != by_ids_.end() && pairs_[*old].id_a == pairs[p].id_a &&
         pairs_[*old].id_b == pairs[p].id_b) {
       springs[place] = springs_of_pair_[*old];
-      wake[place] = wake_[*old];
+      next_check[place] = next_check_[*old];
       near[place] = std::move(near_[*old]);
       if (*old < images_.size() && cell_) images[place] = images_[*old];
       if (const auto bond = old_bond_of_pair[*old]; bond != no_bond) {
@@ -116,10 +116,10 @@ void GrainContacts::rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
   pairs_ = std::move(listed);
   by_ids_ = std::move(by_ids);
   springs_of_pair_ = std::move(springs);
-  wake_ = std::move(wake);
+  next_check_ = std::move(next_check);
   near_ = std::move(near);
   images_ = std::move(images);
-  // A sleeping pair writes neither.
+  // A pair that is skipped writes neither.
   new_springs_of_pair_.assign(pairs_.size(), {});
   forces_.assign(pairs_.size(), {});
   acts_.assign(pairs_.size(), 0);
@@ -130,8 +130,8 @@ void GrainContacts::set_cell(const PeriodicCell& cell, const CellMotion& motion)
   cell_ = cell;
   cell_motion_ = motion;
   images_.resize(pairs_.size());
-  // Half a width. Beyond `farthest` the meter does not count what the cell's own motion does, so no
-  // more than that is taken for granted.
+  // Half a width. Beyond `farthest` the path lengths do not include what the motion of the cell
+  // does, so no more than that can be assumed.
   image_distance_ = std::min(0.5 * cell.least_width(), motion.farthest);
 }
 
@@ -160,18 +160,18 @@ PairContext GrainContacts::context_of(const GrainFrame& a, const GrainFrame& b,
           .time_step = time_step};
 }
 
-/// What the force of a pair means for the next step, once that of its nodes is known. `wake`: by
-/// its near lists.
-void GrainContacts::settle(std::size_t p, std::span<const GrainFrame> frames, double wake,
+/// What the force of a pair means for the next step, once that of its nodes is known. `next_check`:
+/// by its near lists.
+void GrainContacts::settle(std::size_t p, std::span<const GrainFrame> frames, double next_check,
                            bool had_springs, ContactCounters& counters) {
   const bool had_bond = bond_of_pair_[p] != no_bond;
   if (had_bond) add_bond(p, frames);
-  // A pair that lets go of springs is looked at once more, so that both buffers are empty when it
-  // falls asleep.
-  wake_[p] = had_springs || had_bond ? wake_always : wake;
+  // A pair that lost springs is evaluated once more, so that both buffers are empty when it is
+  // skipped.
+  next_check_[p] = had_springs || had_bond ? check_always : next_check;
   const PairForce& force = forces_[p];
   acts_[p] = force.holds() || force.friction != 0 || force.dashpot != 0 || force.fracture != 0;
-  ++counters.awake;
+  ++counters.due;
   counters.touching_nodes += force.touching;
   if (force.touching > 0) ++counters.touching_pairs;
 }
@@ -187,8 +187,8 @@ void GrainContacts::keep_bond(std::size_t p, const Bond& bond) {
 void GrainContacts::add_bond(std::size_t p, std::span<const GrainFrame> frames) {
   const std::uint32_t bond = bond_of_pair_[p];
   std::optional<GrainFrame> image;
-  const BondForce cement =
-      settings_.bond->respond(bonds_[bond], frames[pairs_[p].slot_a], image_of_b(p, frames, image));
+  const BondForce cement = settings_.bond->bond_force(bonds_[bond], frames[pairs_[p].slot_a],
+                                                      image_of_b(p, frames, image));
   PairForce& pair = forces_[p];
   fates_[bond] = cement.fate;
   pair.bonded = cement.fate == BondFate::holds;
@@ -220,7 +220,7 @@ void GrainContacts::set_bonds(std::span<const GrainFrame> frames) {
     const auto bond = set_bond(*settings_.bond, a, b, sides[0], sides[1]);
     if (!bond) continue;
     keep_bond(p, *bond);
-    wake_[p] = wake_always;
+    next_check_[p] = check_always;
   }
 }
 
@@ -242,46 +242,46 @@ void GrainContacts::evaluate_plainly(const Law& law, std::size_t p,
       scratch.touches.clear();
       find_touches(master, slave, scratch.touches);
       add_directed(pair,
-                   respond(law, context, master.position, motion_of(master), motion_of(slave),
-                           scratch.touches, old.of(master_is_b), master_is_b, weight, arena),
+                   pair_force(law, context, master.position, motion_of(master), motion_of(slave),
+                              scratch.touches, old.of(master_is_b), master_is_b, weight, arena),
                    master_is_b);
     });
   });
   forces_[p] = pair;
-  settle(p, frames, wake_always, !old.empty(), scratch.counters);
+  settle(p, frames, check_always, !old.empty(), scratch.counters);
 }
 
 /// Finds the touching nodes of a pair by its near lists and lets them wait for their law.
 void GrainContacts::find_nodes(std::size_t p, std::span<const GrainFrame> frames, double time_step,
-                               double odometer, Scratch& scratch) {
+                               double path_length, Scratch& scratch) {
   std::optional<GrainFrame> image;
   const GrainFrame& a = frames[pairs_[p].slot_a];
   const GrainFrame& b = image_of_b(p, frames, image);
   const SidedSprings old{store_.read(springs_of_pair_[p])};
   const PairContext context = context_of(a, b, time_step);
-  double wake = wake_never;
+  double next_check = check_never;
   for_each_master(settings_.master, a, b, [&](bool master_is_b, double) {
     const GrainFrame& master = master_is_b ? b : a;
     const GrainFrame& slave = master_is_b ? a : b;
     NearList& list = master_is_b ? near_[p].of_b : near_[p].of_a;
     scratch.touches.clear();
-    wake = std::min(wake, list.find_touches(master, slave, odometer, filter_, scratch.touches,
-                                            scratch.counters));
+    next_check = std::min(next_check, list.find_touches(master, slave, path_length, filter_,
+                                                        scratch.touches, scratch.counters));
     scratch.batch.add(context, master.position, motion_of(master), motion_of(slave),
                       scratch.touches, old.of(master_is_b));
   });
   if (cell_) {  // soon enough for the images that were not looked at
     const double both_radii = a.shape->bounding_radius + b.shape->bounding_radius;
-    wake = std::min(wake, odometer + (image_distance_ - both_radii));
+    next_check = std::min(next_check, path_length + (image_distance_ - both_radii));
   }
-  scratch.waiting.push_back({p, wake});
+  scratch.waiting.push_back({p, next_check});
 }
 
 /// The forces of the pairs that wait.
 template <ContactLaw Law>
 void GrainContacts::answer_waiting(const Law& law, std::span<const GrainFrame> frames,
                                    double time_step, Scratch& scratch) {
-  scratch.batch.respond(settings_.law, settings_.friction, time_step, lanes_);
+  scratch.batch.evaluate(settings_.law, settings_.friction, time_step, lanes_);
   std::size_t member = 0;
   for (const Waiting& waiting : scratch.waiting) {
     const std::size_t p = waiting.pair;
@@ -297,7 +297,7 @@ void GrainContacts::answer_waiting(const Law& law, std::span<const GrainFrame> f
       });
     });
     forces_[p] = pair;
-    settle(p, frames, waiting.wake, !old.empty(), scratch.counters);
+    settle(p, frames, waiting.next_check, !old.empty(), scratch.counters);
   }
   scratch.waiting.clear();
   scratch.batch.clear();
@@ -315,13 +315,13 @@ void GrainContacts::evaluate_pairs(const Law& law, Part part, std::span<const Gr
     });
     return;
   }
-  const std::span<const double> travelled = meter_.travelled();
-  visit_awake(
-      wake_, [&](std::size_t p) { return part.has(pairs_[p]); },
+  const std::span<const double> travelled = displacements_.path_lengths();
+  visit_due(
+      next_check_, [&](std::size_t p) { return part.has(pairs_[p]); },
       [&](std::size_t p) { return travelled[pairs_[p].slot_a] + travelled[pairs_[p].slot_b]; },
       [&](std::size_t p) { prefetch(p, frames); },
-      [&](std::size_t p, double odometer) {
-        find_nodes(p, frames, time_step, odometer, scratch());
+      [&](std::size_t p, double path_length) {
+        find_nodes(p, frames, time_step, path_length, scratch());
       },
       [&] { answer_waiting(law, frames, time_step, scratch()); });
 }
@@ -336,17 +336,17 @@ void GrainContacts::prefetch(std::size_t p, std::span<const GrainFrame> frames) 
 
 bool GrainContacts::may_use_near_lists() {
   if (engine_ != ContactEngine::near) return false;
-  if (!meter_.trustworthy()) forget_near_lists();
-  return meter_.trustworthy();
+  if (!displacements_.trustworthy()) forget_near_lists();
+  return displacements_.trustworthy();
 }
 
 void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_step,
                              std::size_t owned, const std::function<void()>& others_arrive) {
   owned_ = owned;
-  const bool uses_meter = engine_ == ContactEngine::near;
-  if (uses_meter) {
-    meter_.begin(frames, cell_ ? &cell_motion_ : nullptr);
-    meter_.follow(frames, 0, owned);
+  const bool uses_displacements = engine_ == ContactEngine::near;
+  if (uses_displacements) {
+    displacements_.begin(frames, cell_ ? &cell_motion_ : nullptr);
+    displacements_.follow(frames, 0, owned);
   }
   store_.begin_writing(thread_count());
   scratch_.resize(static_cast<std::size_t>(thread_count()));
@@ -359,7 +359,7 @@ void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_ste
   evaluate_part(false);
   others_arrive();
   if (owned < frames.size()) {
-    if (uses_meter) meter_.follow(frames, owned, frames.size());
+    if (uses_displacements) displacements_.follow(frames, owned, frames.size());
     evaluate_part(true);
   }
   ++counters_.evaluations;
@@ -371,7 +371,7 @@ void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_ste
 }
 
 void GrainContacts::forget_near_lists() {
-  std::fill(wake_.begin(), wake_.end(), wake_always);
+  std::fill(next_check_.begin(), next_check_.end(), check_always);
   for (NearPair& pair : near_) pair = {};
 }
 
@@ -412,7 +412,7 @@ std::size_t GrainContacts::bytes() const {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   std::size_t sum = of(pairs_) + of(by_ids_) + of(pairs_of_grain_.first) +
                     of(pairs_of_grain_.entries) + of(springs_of_pair_) + of(new_springs_of_pair_) +
-                    of(forces_) + of(acts_) + of(wake_) + of(near_) + store_.bytes() +
+                    of(forces_) + of(acts_) + of(next_check_) + of(near_) + store_.bytes() +
                     of(bond_of_pair_) + of(bonds_) + of(fates_) + of(pair_of_bond_);
   for (const NearPair& pair : near_) sum += pair.of_a.bytes() + pair.of_b.bytes();
   return sum;
@@ -440,7 +440,7 @@ void GrainContacts::adopt(std::span<const PairSprings> springs) {
       pairs_.push_back({pair.id_a, pair.id_b, 0, 0});
       springs_of_pair_.emplace_back();
       bond_of_pair_.push_back(no_bond);
-      wake_.push_back(wake_always);
+      next_check_.push_back(check_always);
       near_.emplace_back();
       if (cell_) images_.emplace_back();
     }
@@ -448,7 +448,7 @@ void GrainContacts::adopt(std::span<const PairSprings> springs) {
     if (pair.bond && bond_of_pair_[p] == no_bond) keep_bond(p, *pair.bond);
     if (springs_of_pair_[p].count > 0) continue;  // both ranks of a pair hold the same springs
     springs_of_pair_[p] = store_.adopt(pair.springs);
-    wake_[p] = wake_always;
+    next_check_[p] = check_always;
   }
   by_ids_.clear();
   for (const auto& [ids, p] : listed) by_ids_.push_back(p);

@@ -10,9 +10,9 @@
 
 #include "reckon/contact/contact_counters.hpp"
 #include "reckon/contact/contact_settings.hpp"
-#include "reckon/contact/history.hpp"
-#include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/displacement_bound.hpp"
 #include "reckon/contact/near_list.hpp"
+#include "reckon/contact/spring_store.hpp"
 #include "reckon/contact/touch.hpp"
 #include "reckon/contact/touch_batch.hpp"
 #include "reckon/grains/grain_frame.hpp"
@@ -62,13 +62,13 @@ struct BrokenBonds {
 /// A step is evaluate(), then add_loads(), then commit(). Without commit() the springs stay those
 /// of the last step, so forces can be looked at without moving on.
 ///
-/// With ContactEngine::near a pair sleeps while nothing can touch and it holds no springs:
+/// With ContactEngine::near a pair is skipped while nothing can touch and it holds no springs:
 ///
-///   asleep: odometer (sum of what both grains travelled) < wake_[pair]; forces and springs empty
-///   awake:  its near lists are asked, its nodes respond
+///   skipped: path length (sum of both grains') < next_check_[pair]; no forces, no springs
+///   due:     its near lists are asked, and the law is evaluated at its touching nodes
 ///
-/// The meter and the lists are derived from the frames alone. They are in no checkpoint, and no
-/// answer depends on them.
+/// The path lengths and the lists are derived from the frames alone. They are in no checkpoint, and
+/// no answer depends on them.
 class GrainContacts {
  public:
   explicit GrainContacts(ContactSettings settings, ContactEngine engine = ContactEngine::near,
@@ -118,8 +118,8 @@ class GrainContacts {
   /// For every grain its pairs, in the order of the partners' ids.
   [[nodiscard]] const PairsOfGrain& pairs_of_grain() const { return pairs_of_grain_; }
   [[nodiscard]] const ContactCounters& counters() const { return counters_; }
-  /// What the grains of the last evaluate() have travelled; stands still with the plain engine.
-  [[nodiscard]] const MotionMeter& meter() const { return meter_; }
+  /// Of the grains of the last evaluate(); the plain engine does not update it.
+  [[nodiscard]] const DisplacementBound& displacements() const { return displacements_; }
 
   /// Memory held by lists, pairs and springs.
   [[nodiscard]] std::size_t bytes() const;
@@ -134,7 +134,7 @@ class GrainContacts {
   /// A pair whose nodes are in a batch.
   struct Waiting {
     std::size_t pair;
-    double wake;
+    double next_check;
   };
   /// What one thread works with.
   struct alignas(64) Scratch {
@@ -168,7 +168,7 @@ class GrainContacts {
                         double time_step, Scratch& scratch);
   void prefetch(std::size_t p, std::span<const GrainFrame> frames) const;
   void find_nodes(std::size_t p, std::span<const GrainFrame> frames, double time_step,
-                  double odometer, Scratch& scratch);
+                  double path_length, Scratch& scratch);
   template <ContactLaw Law>
   void answer_waiting(const Law& law, std::span<const GrainFrame> frames, double time_step,
                       Scratch& scratch);
@@ -176,8 +176,8 @@ class GrainContacts {
                                std::optional<GrainFrame>& image);
   [[nodiscard]] PairContext context_of(const GrainFrame& a, const GrainFrame& b,
                                        double time_step) const;
-  void settle(std::size_t p, std::span<const GrainFrame> frames, double wake, bool had_springs,
-              ContactCounters& counters);
+  void settle(std::size_t p, std::span<const GrainFrame> frames, double next_check,
+              bool had_springs, ContactCounters& counters);
   void add_bond(std::size_t p, std::span<const GrainFrame> frames);
   void keep_bond(std::size_t p, const Bond& bond);
 
@@ -201,9 +201,9 @@ class GrainContacts {
   BrokenBonds broken_;
   std::size_t owned_{0};  // frames at the last evaluate()
 
-  MotionMeter meter_;
-  std::vector<double> wake_;    // per pair: odometer reading; minus infinity: awake
-  std::vector<NearPair> near_;  // per pair
+  DisplacementBound displacements_;
+  std::vector<double> next_check_;  // per pair: path length [m]; minus infinity: due
+  std::vector<NearPair> near_;      // per pair
   std::optional<PeriodicCell> cell_;
   CellMotion cell_motion_;
   std::vector<Vec3> images_;  // with a cell, per pair: which image of b its near lists are about

@@ -36,7 +36,7 @@ struct HertzLaw {
   double shear_modulus{0};   ///< G* [Pa]
   double dashpot_factor{0};  ///< see hertz_dashpot_factor; 0: none
 
-  [[nodiscard]] NodeResponse respond(const PairContext& context, const Touch& touch,
+  [[nodiscard]] NodeForce node_force(const PairContext& context, const Touch& touch,
                                      const Vec3& normal, const Vec3& velocity,
                                      const ShearSpring& spring) const {
     const double share = context.third_moment > 0 ? depth_cubed(touch) / context.third_moment : 0;

@@ -45,7 +45,7 @@ __attribute__((flatten)) void answer(const Law& given, double friction, double t
           {is_old ? turned.x : 0, is_old ? turned.y : 0, is_old ? turned.z : 0},
           b.old_shear_stiffness[n]};
       const Vec3 velocity = b.velocity[n];
-      NodeResponse node = law.respond(context, touch, normal, velocity, spring);
+      NodeForce node = law.node_force(context, touch, normal, velocity, spring);
       b.steepness[n] = steepness;
       b.normal.set(n, normal);
       b.force.set(n, node.force);

@@ -22,7 +22,7 @@ struct LinearLaw {
   double dashpot_factor{0};    ///< see linear_dashpot_factor; 0: none
   std::uint32_t node_cap{0};   ///< 0: none
 
-  [[nodiscard]] NodeResponse respond(const PairContext& context, const Touch& touch,
+  [[nodiscard]] NodeForce node_force(const PairContext& context, const Touch& touch,
                                      const Vec3& normal, const Vec3& velocity,
                                      const ShearSpring& spring) const {
     const double approach = dot(normal, velocity);

@@ -8,16 +8,16 @@
 #include <limits>
 
 #include "reckon/contact/clearance.hpp"
-#include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/displacement_bound.hpp"
 #include "reckon/contact/sphere_contact.hpp"
 
 namespace reckon {
 namespace {
 
 /// Taken off every clearance: far more than the rounding of positions in the slave's frame, of phi
-/// and of the Lipschitz constant, and than that of sums with the odometer.
-double rounding_margin(double both_radii, double odometer) {
-  return 1e-12 * both_radii + 8 * std::numeric_limits<double>::epsilon() * odometer;
+/// and of the Lipschitz constant, and than that of sums with the path_length.
+double rounding_margin(double both_radii, double path_length) {
+  return 1e-12 * both_radii + 8 * std::numeric_limits<double>::epsilon() * path_length;
 }
 
 /// The bound of a cluster whose nodes have been looked at one by one.
@@ -45,41 +45,41 @@ struct ClusterSpheres {
 
 }  // namespace
 
-double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave, double odometer,
+double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave, double path_length,
                               PointFilter filter, std::vector<Touch>& touches,
                               ContactCounters& counters) {
   const double both_radii = list_.exists()
                                 ? list_.partner().both_radii
                                 : master.shape->bounding_radius + slave.shape->bounding_radius;
-  const double margin = rounding_margin(both_radii, odometer);
+  const double margin = rounding_margin(both_radii, path_length);
   if (are_spheres(master, slave)) {
     const double gap = touch_spheres(master, slave, touches);
-    return gap < 0 ? wake_always : odometer + std::max(gap - margin, 0.0);
+    return gap < 0 ? check_always : path_length + std::max(gap - margin, 0.0);
   }
-  list_.prefetch_wakes(odometer);
+  list_.prefetch_next_checks(path_length);
   const Vec3 offset_world = master.position - slave.position;
   if (!spheres_meet(offset_world, both_radii)) {
-    return odometer + std::max(norm(offset_world) - both_radii - margin, 0.0);
+    return path_length + std::max(norm(offset_world) - both_radii - margin, 0.0);
   }
-  const Placement at = place(master, slave);
-  if (!list_.complete_at(odometer)) {
+  const RelativePose at = relative_pose(master, slave);
+  if (!list_.complete_at(path_length)) {
     ++counters.lists_checked;
-    if (!still_complete(at, master.shape->bounding_radius, odometer, margin)) {
-      make(*master.shape, *slave.shape, at, odometer, margin, filter, counters);
+    if (!still_complete(at, master.shape->bounding_radius, path_length, margin)) {
+      make(*master.shape, *slave.shape, at, path_length, margin, filter, counters);
     }
   }
   const Slave& other = list_.partner();
-  return list_.look(odometer, touches, [&](Node& node) {
+  return list_.look(path_length, touches, [&](Node& node) {
     ++counters.tested_nodes;
-    const auto sleep = [&](double clearance) {
-      return odometer + std::max(clearance - margin, 0.0);
+    const auto next_check_after = [&](double clearance) {
+      return path_length + std::max(clearance - margin, 0.0);
     };
     const Vec3 point = at.turn * node.place_body + at.shift;
     if (!(squared_norm(point) < other.radius_squared)) {
-      return sleep(norm(point) - slave.shape->bounding_radius);
+      return next_check_after(norm(point) - slave.shape->bounding_radius);
     }
     const auto where = other.grid.locate(point);
-    if (!where.inside) return sleep(Clearance{*slave.shape}.of_grid(point));
+    if (!where.inside) return next_check_after(Clearance{*slave.shape}.of_grid(point));
     if (where.i != node.i || where.j != node.j || where.k != node.k) {
       ++counters.cells_read;
       node.i = where.i;
@@ -88,28 +88,29 @@ double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave,
       node.cell = other.grid.polynomial(where.i, where.j, where.k);
     }
     const double phi = node.cell.value(where.x, where.y, where.z);
-    if (!(phi < 0)) return sleep(phi * other.slope);
+    if (!(phi < 0)) return next_check_after(phi * other.slope);
     const Vec3 gradient_body =
         other.grid.inverse_spacing * node.cell.gradient(where.x, where.y, where.z);
     touches.push_back({node.node, phi, slave.rotation * gradient_body,
                        master.rotation * node.place_body, node.area});
-    return wake_always;
+    return check_always;
   });
 }
 
-bool NearList::still_complete(const Placement& at, double master_radius, double odometer,
+bool NearList::still_complete(const RelativePose& at, double master_radius, double path_length,
                               double margin) {
   if (!list_.exists()) return false;
-  const Placement& made = list_.reference();
+  const RelativePose& made = list_.reference();
   const double moved =
       norm(at.shift - made.shift) + master_radius * turn_distance(made.turn, at.turn);
   if (!(moved < list_lifetime * list_.rest())) return false;
-  list_.set_complete_until(odometer + (list_.rest() - moved) - margin);
+  list_.set_complete_until(path_length + (list_.rest() - moved) - margin);
   return true;
 }
 
-void NearList::make(const ShapeView& master, const ShapeView& slave, const Placement& at,
-                    double odometer, double margin, PointFilter filter, ContactCounters& counters) {
+void NearList::make(const ShapeView& master, const ShapeView& slave, const RelativePose& at,
+                    double path_length, double margin, PointFilter filter,
+                    ContactCounters& counters) {
   struct Found {
     NodeIndex node;
     double clearance;
@@ -124,7 +125,7 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Place
   const FilterTarget target{slave, at, master.bounding_radius, skin};
   clusters.copy(master.clusters, target.inverse_spacing);
   const auto metres = [&](float bound) { return target.in_metres(bound) - margin; };
-  double rest = wake_never;
+  double rest = check_never;
   const auto open = [&](const NodeCluster& cluster) {
     std::array<float, nodes_per_cluster> x{};
     std::array<float, nodes_per_cluster> y{};
@@ -156,7 +157,7 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Place
     open(master.clusters[c]);
     bounds[c] = opened;
   }
-  // Nothing near: the pair will sleep, the longer the better the bound is known.
+  // Nothing near: the pair will be skipped, the longer the better the bound is known.
   while (found.empty()) {
     const auto nearest = std::min_element(bounds.begin(), bounds.end());
     if (nearest == bounds.end() || metres(*nearest) >= rest) break;
@@ -172,13 +173,13 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Place
                  .radius_squared = slave.bounding_radius * slave.bounding_radius,
                  .slope = slave.lipschitz > 0 ? 1 / slave.lipschitz : 0,
                  .grid = slave.level_set},
-                at, odometer, rest, found.size());
+                at, path_length, rest, found.size());
   for (std::size_t n = 0; n < found.size(); ++n) {
     const NodeIndex node = found[n].node;
     list_.set_node(
         n,
         {.place_body = master.nodes.position(node), .area = master.nodes.area[node], .node = node},
-        odometer + std::max(found[n].clearance, 0.0));
+        path_length + std::max(found[n].clearance, 0.0));
   }
 }
 

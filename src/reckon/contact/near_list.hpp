@@ -5,25 +5,25 @@
 #include <vector>
 
 #include "reckon/contact/contact_counters.hpp"
-#include "reckon/contact/placement.hpp"
 #include "reckon/contact/point_filter.hpp"
+#include "reckon/contact/relative_pose.hpp"
 #include "reckon/contact/touch.hpp"
-#include "reckon/contact/wake_list.hpp"
+#include "reckon/contact/verlet_node_list.hpp"
 
 namespace reckon {
 
-/// The nodes of one master that are near one slave: a WakeList. A node keeps the coefficients of
-/// the cell that it was last seen in, so the slave's grid is read only when it enters another.
+/// The nodes of one master that are near one slave: a VerletNodeList. A node keeps the coefficients
+/// of the cell that it was last seen in, so the slave's grid is read only when it enters another.
 ///
-/// When the odometer passes the mark until which the list is complete, both grains may have moved
-/// together, or there and back. So the motion of master against slave since the list was made is
-/// looked at first; only if that has used up most of the list's allowance is it made anew.
+/// When the path length passes the mark until which the list is complete, both grains may have
+/// moved together, or there and back. So the motion of master against slave since the list was made
+/// is looked at first; only if that has used up most of the list's allowance is it made anew.
 class NearList {
  public:
   /// Appends the touching nodes in node order: the same bits as the plain finder's. Returns the
-  /// odometer reading before which no node can touch, or minus infinity if a node touches now.
+  /// path length before which no node can touch, or minus infinity if a node touches now.
   /// Any `filter` will do.
-  double find_touches(const GrainFrame& master, const GrainFrame& slave, double odometer,
+  double find_touches(const GrainFrame& master, const GrainFrame& slave, double path_length,
                       PointFilter filter, std::vector<Touch>& touches, ContactCounters& counters);
 
   void prefetch() const { list_.prefetch(); }
@@ -47,12 +47,12 @@ class NearList {
     NodeIndex node{0};
   };
 
-  [[nodiscard]] bool still_complete(const Placement& at, double master_radius, double odometer,
-                                    double margin);
-  void make(const ShapeView& master, const ShapeView& slave, const Placement& at, double odometer,
-            double margin, PointFilter filter, ContactCounters& counters);
+  [[nodiscard]] bool still_complete(const RelativePose& at, double master_radius,
+                                    double path_length, double margin);
+  void make(const ShapeView& master, const ShapeView& slave, const RelativePose& at,
+            double path_length, double margin, PointFilter filter, ContactCounters& counters);
 
-  WakeList<Slave, Placement, Node> list_;
+  VerletNodeList<Slave, RelativePose, Node> list_;
 };
 
 }  // namespace reckon

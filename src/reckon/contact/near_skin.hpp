@@ -12,9 +12,9 @@ namespace reckon {
 
 // What near lists of grains and of walls share.
 
-/// Odometer readings of nodes and pairs that are always looked at, or never again.
-inline constexpr double wake_always = -std::numeric_limits<double>::infinity();
-inline constexpr double wake_never = std::numeric_limits<double>::infinity();
+/// Path lengths for nodes and pairs that are always checked, or never again.
+inline constexpr double check_always = -std::numeric_limits<double>::infinity();
+inline constexpr double check_never = std::numeric_limits<double>::infinity();
 
 /// A list is made anew once this share of its allowance is used up.
 inline constexpr double list_lifetime = 0.75;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/contact/pair_kernel.hpp"
 
-#include "reckon/contact/placement.hpp"
+#include "reckon/contact/relative_pose.hpp"
 #include "reckon/contact/sphere_contact.hpp"
 
 namespace reckon {
@@ -19,7 +19,7 @@ void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector
                     shape.bounding_radius + other.bounding_radius)) {
     return;
   }
-  const Placement at = place(master, slave);
+  const RelativePose at = relative_pose(master, slave);
   const double radius_squared = other.bounding_radius * other.bounding_radius;
   for (std::size_t n = 0; n < shape.nodes.size(); ++n) {
     const Vec3 node_body = shape.nodes.position(n);

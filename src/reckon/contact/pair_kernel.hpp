@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "reckon/contact/history.hpp"
+#include "reckon/contact/spring_store.hpp"
 #include "reckon/contact/touch.hpp"
 #include "reckon/grains/grain_frame.hpp"
 
@@ -81,11 +81,11 @@ void find_touches(const GrainFrame& master, const GrainFrame& slave, std::vector
 /// springs. Where `first_moment` is given, it becomes the sum of the nodes' forces times their
 /// levers about the master's centre, f (x) l [N m].
 template <ContactLaw Law>
-DirectedForce respond(const Law& law, PairContext context, const Vec3& master_center,
-                      const RigidMotion& master, const RigidMotion& slave,
-                      std::span<const Touch> touches, std::span<const NodeSpring> old_springs,
-                      bool master_is_b, double weight, std::vector<NodeSpring>& new_springs,
-                      Mat3* first_moment = nullptr) {
+DirectedForce pair_force(const Law& law, PairContext context, const Vec3& master_center,
+                         const RigidMotion& master, const RigidMotion& slave,
+                         std::span<const Touch> touches, std::span<const NodeSpring> old_springs,
+                         bool master_is_b, double weight, std::vector<NodeSpring>& new_springs,
+                         Mat3* first_moment = nullptr) {
   DirectedForce sum;
   if (first_moment != nullptr) *first_moment = {Vec3{}, Vec3{}, Vec3{}};
   count_touches(context, touches);
@@ -106,7 +106,7 @@ DirectedForce respond(const Law& law, PairContext context, const Vec3& master_ce
       dashpot_before = old->dashpot_push;
       ++old;
     }
-    const NodeResponse node = law.respond(context, touch, normal, velocity, spring);
+    const NodeForce node = law.node_force(context, touch, normal, velocity, spring);
     sum.force += node.force;
     sum.moment_master += cross(touch.lever_world, node.force);
     sum.moment_slave -= cross(lever_slave, node.force);

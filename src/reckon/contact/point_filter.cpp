@@ -70,7 +70,7 @@ void scalar_filter(const FilterTarget& target, const FilterPoints& points, float
 
 }  // namespace
 
-FilterTarget::FilterTarget(const ShapeView& grain, const Placement& at, double master_radius,
+FilterTarget::FilterTarget(const ShapeView& grain, const RelativePose& at, double master_radius,
                            double skin_metres)
     : values{grain.level_set.values.data()},
       band{grain.level_set.band},

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "reckon/contact/placement.hpp"
+#include "reckon/contact/relative_pose.hpp"
 #include "reckon/contact/simd_level.hpp"
 #include "reckon/shape/shape.hpp"
 
@@ -15,7 +15,7 @@ namespace reckon {
 /// of its grid and counted from the grid's first vertex, so that numbers are of moderate size
 /// whatever the unit.
 struct FilterTarget {
-  FilterTarget(const ShapeView& grain, const Placement& at, double master_radius, double skin);
+  FilterTarget(const ShapeView& grain, const RelativePose& at, double master_radius, double skin);
 
   std::array<float, 9> turn{};    ///< by rows: a point is at turn * point_body + shift
   std::array<float, 3> shift{};   ///< [cells]

@@ -32,7 +32,7 @@ struct PairContext {
 };
 
 /// What a law answers for one node.
-struct NodeResponse {
+struct NodeForce {
   Vec3 force;                 ///< on the master, world frame [N]
   Vec3 shear_force;           ///< its frictional part: the new spring [N]
   double shear_stiffness{0};  ///< of that spring [N/m]
@@ -46,7 +46,7 @@ struct NodeResponse {
 /// push times the mean of the velocities before and after each step. `before` is last step's push,
 /// zero where the node did not touch. A node about to leave does not come by again, so that the
 /// second half of its last push is counted here.
-[[nodiscard]] inline double dashpot_loss(double before, const NodeResponse& now, const Touch& touch,
+[[nodiscard]] inline double dashpot_loss(double before, const NodeForce& now, const Touch& touch,
                                          double approach, double time_step) {
   const double way = approach * time_step;
   const double share = touch.phi + way < 0 ? 0.5 : 1.0;
@@ -54,7 +54,8 @@ struct NodeResponse {
 }
 
 /// A contact law: a small value type that turns one touching node into forces.
-/// - `respond`: the node's forces. `normal` is the unit normal out of the slave; `spring` is that
+/// - `node_force`: the node's forces. `normal` is the unit normal out of the slave; `spring` is
+/// that
 ///   of the last step, its force already turned to today's normal; `velocity` is that of the
 ///   master's node relative to the slave [m/s].
 /// - `pair_scale`: a factor on everything that a pair of `context.touching` nodes does.
@@ -63,7 +64,7 @@ struct NodeResponse {
 template <class Law>
 concept ContactLaw = requires(const Law law, const PairContext& context, const Touch& touch,
                               const Vec3& vector, const ShearSpring& spring) {
-  { law.respond(context, touch, vector, vector, spring) } -> std::same_as<NodeResponse>;
+  { law.node_force(context, touch, vector, vector, spring) } -> std::same_as<NodeForce>;
   { law.pair_scale(context) } -> std::same_as<double>;
   { law.pair_stiffness(context) } -> std::same_as<double>;
   { law.pair_damping(context) } -> std::same_as<double>;

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "reckon/contact/contact_settings.hpp"
-#include "reckon/contact/history.hpp"
 #include "reckon/contact/pair_kernel.hpp"
 #include "reckon/contact/simd_level.hpp"
+#include "reckon/contact/spring_store.hpp"
 #include "reckon/contact/touch.hpp"
 
 namespace reckon {
@@ -46,31 +46,31 @@ struct alignas(64) TouchLanes {
   std::array<std::uint32_t, width> touching;  // nodes of the pair
 };
 
-/// Answers all lanes of all blocks: the bits of respond() at every node.
+/// Answers all lanes of all blocks: the bits of pair_force() at every node.
 using LawLanes = void (*)(const AnyContactLaw& law, double friction, double time_step,
                           std::span<TouchLanes> blocks);
 [[nodiscard]] LawLanes law_lanes(SimdLevel level);
 
-/// respond() for many masters and slaves at once. Nodes of all wait until they fill the lanes of
+/// pair_force() for many masters and slaves at once. Nodes of all wait until they fill the lanes of
 /// vector registers; each master's sums are then taken in node order as there.
 ///
-///   clear()   add() add() add() ...   respond()   sum(0, ..) sum(1, ..) sum(2, ..) ...
+///   clear()   add() add() add() ...   evaluate()   sum(0, ..) sum(1, ..) sum(2, ..) ...
 class TouchBatch {
  public:
   void clear() {
     members_.clear();
     nodes_ = 0;
   }
-  /// Arguments as respond() takes them. Returns the member's number.
+  /// Arguments as pair_force() takes them. Returns the member's number.
   std::size_t add(PairContext context, const Vec3& master_center, const RigidMotion& master,
                   const RigidMotion& slave, std::span<const Touch> touches,
                   std::span<const NodeSpring> old_springs);
   /// Answers all members. `lanes` is any of law_lanes().
-  void respond(const AnyContactLaw& law, double friction, double time_step, LawLanes lanes) {
+  void evaluate(const AnyContactLaw& law, double friction, double time_step, LawLanes lanes) {
     const std::size_t blocks = (nodes_ + TouchLanes::width - 1) / TouchLanes::width;
     lanes(law, friction, time_step, std::span{blocks_}.first(blocks));
   }
-  /// What respond() returns; `old_springs` are those that add() got.
+  /// What pair_force() returns; `old_springs` are those that add() got.
   template <ContactLaw Law>
   [[nodiscard]] DirectedForce sum(std::size_t member, const Law& law,
                                   std::span<const NodeSpring> old_springs, bool master_is_b,

@@ -10,7 +10,7 @@
 #include <limits>
 #include <variant>
 
-#include "reckon/neighbor/motion_budget.hpp"
+#include "reckon/neighbor/adaptive_skin.hpp"
 #include "reckon/scene/stage_check.hpp"
 #include "reckon/simulation/stage_setup.hpp"
 
@@ -116,8 +116,8 @@ void StageCheck::check_room_in_cell(const LoadedScene& scene) {
     largest = std::max(largest, shape.outline.bounding_radius);
     smallest = std::min(smallest, shape.outline.bounding_radius);
   }
-  const MotionBudget budget = MotionBudget::with(scene_.neighbor.skin * smallest, 0);
-  const double least = 4 * (largest + budget.most);
+  const AdaptiveSkin skin = AdaptiveSkin::with(scene_.neighbor.skin * smallest, 0);
+  const double least = 4 * (largest + skin.max);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     if (!periodic[a]) continue;

@@ -19,7 +19,7 @@
 #include "reckon/scene/scale_check.hpp"
 #include "reckon/scene/stage_check.hpp"
 #include "reckon/scene/start_check.hpp"
-#include "reckon/simulation/placement.hpp"
+#include "reckon/simulation/fill_region.hpp"
 #include "reckon/simulation/stage_setup.hpp"
 #include "reckon/simulation/time_step.hpp"
 #include "reckon/text/free_memory.hpp"

@@ -35,7 +35,7 @@ CellReaction reaction_of(const PairForce& pair, const Vec3& d) {
 }  // namespace
 
 /// The root's cell becomes everybody's.
-void Simulation::take_over_cell(const SimulationState& state) {
+void Simulation::restore_cell(const SimulationState& state) {
   if (!setup_.cell) return;
   const CellSetup& from = *setup_.cell;
   const UpperMat3 start{from.size, 0, 0, 0};
@@ -46,7 +46,7 @@ void Simulation::take_over_cell(const SimulationState& state) {
   bytes = distribution_.ranks().broadcast(std::move(bytes));
   cell_state_ = Unpacker{bytes}.take<CellState>();
   cell_.emplace(from.center, from.periodic, cell_state_.edges, cell_state_.rates);
-  budget_.center = from.center;
+  adaptive_skin_.center = from.center;
   grain_contacts_.set_cell(*cell_, cell_motion());
 }
 
@@ -56,9 +56,9 @@ void Simulation::begin_stage_of_cell() {
 }
 
 /// How the cell moved since contacts were evaluated. Pairs stay listed while they are at most twice
-/// as far apart as when their lists were made (see some_budget_is_used_up).
+/// as far apart as when their lists were made (see skin_is_used_up).
 CellMotion Simulation::cell_motion() const {
-  return {cell_->center(), cell_since_evaluation_, 4 * (largest_radius_ + budget_.most)};
+  return {cell_->center(), cell_since_evaluation_, 4 * (largest_radius_ + adaptive_skin_.max)};
 }
 
 void Simulation::require_wide_cell(double reach) const {

@@ -194,7 +194,7 @@ void Distribution::start_update(const Grains& grains) {
 void Distribution::finish_update() { ghosts_->finish(); }
 
 std::vector<Pair> Distribution::find_pairs(std::span<const GrainFrame> frames,
-                                           const MotionBudget& budget, double gap,
+                                           const AdaptiveSkin& skin, double gap,
                                            std::size_t owned) const {
   std::vector<GrainId> ids;
   std::vector<Vec3> positions;
@@ -202,20 +202,20 @@ std::vector<Pair> Distribution::find_pairs(std::span<const GrainFrame> frames,
   for (const GrainFrame& frame : frames) {
     ids.push_back(frame.id);
     positions.push_back(frame.position);
-    radii.push_back(frame.shape->bounding_radius + budget.of(frame.velocity, frame.position) +
+    radii.push_back(frame.shape->bounding_radius + skin.of(frame.velocity, frame.position) +
                     0.5 * gap);
   }
-  constexpr double skin = 0;  // the radii have it
+  constexpr double included = 0;  // the radii include the skin
   if (cell_) {
     return kind_ == DecompositionKind::replicated
-               ? find_pairs_brute_force(ids, positions, radii, skin, owned, &*cell_)
-               : find_pairs_in_cell(ids, positions, radii, skin, owned, *cell_);
+               ? find_pairs_brute_force(ids, positions, radii, included, owned, &*cell_)
+               : find_pairs_in_cell(ids, positions, radii, included, owned, *cell_);
   }
   switch (kind_) {
     case DecompositionKind::balanced:
-      return reckon::find_pairs(ids, positions, radii, skin, owned);
+      return reckon::find_pairs(ids, positions, radii, included, owned);
     case DecompositionKind::replicated:
-      return find_pairs_brute_force(ids, positions, radii, skin, owned);
+      return find_pairs_brute_force(ids, positions, radii, included, owned);
     case DecompositionKind::grid:
     case DecompositionKind::bins:
       break;
@@ -223,8 +223,8 @@ std::vector<Pair> Distribution::find_pairs(std::span<const GrainFrame> frames,
   const GridCut& cut = dynamic_cast<const GridDecomposition&>(*decomposition_).cut();
   if (ranks_.rank() >= cut.block_count()) return {};
   const BlockBins bins{cut, ranks_.rank(), positions, owned};
-  return kind_ == DecompositionKind::grid ? bins.pairs_by_grain(ids, positions, radii, skin)
-                                          : bins.pairs_by_bin(ids, positions, radii, skin);
+  return kind_ == DecompositionKind::grid ? bins.pairs_by_grain(ids, positions, radii, included)
+                                          : bins.pairs_by_bin(ids, positions, radii, included);
 }
 
 }  // namespace reckon

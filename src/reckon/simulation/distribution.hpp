@@ -12,7 +12,7 @@
 #include "reckon/domain/decomposition.hpp"
 #include "reckon/grains/grain_frame.hpp"
 #include "reckon/grains/periodic_cell.hpp"
-#include "reckon/neighbor/motion_budget.hpp"
+#include "reckon/neighbor/adaptive_skin.hpp"
 
 namespace reckon {
 
@@ -57,7 +57,7 @@ class Distribution {
   /// Pairs of near grains with at least one owned; `frames` holds owned grains, then ghosts. Those
   /// are near whose spheres will not be farther apart than `gap` [m].
   [[nodiscard]] std::vector<Pair> find_pairs(std::span<const GrainFrame> frames,
-                                             const MotionBudget& budget, double gap,
+                                             const AdaptiveSkin& skin, double gap,
                                              std::size_t owned) const;
 
   [[nodiscard]] const CommunicationCounters& counters() const { return counters_; }

@@ -108,7 +108,7 @@ double Simulation::membrane_pressure() const {
 
 void Simulation::evaluate_membrane() {
   if (membrane() == nullptr) return;
-  membrane_contacts_.evaluate(*membrane_, owned_frames(), grain_contacts_.meter(),
+  membrane_contacts_.evaluate(*membrane_, owned_frames(), grain_contacts_.displacements(),
                               setup_.time_step);
   membrane_->evaluate(share(distribution_.ranks(), membrane_contacts_.touches()),
                       membrane_pressure());

@@ -43,12 +43,12 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
       wall_contacts_{setup_.walls, setup_.engine, setup_.simd},
       membrane_contacts_{setup_.engine},
       step_{root_step(ranks, state.step)},
-      budget_{MotionBudget::with(setup_.skin, setup_.time_step)} {
+      adaptive_skin_{AdaptiveSkin::with(setup_.skin, setup_.time_step)} {
   for (const ShapeView& shape : shapes_) {
     largest_radius_ = std::max(largest_radius_, shape.bounding_radius);
   }
   for (const GrainState& grain : state.grains) grains_.push_back(grain);
-  take_over_cell(state);
+  restore_cell(state);
   grain_contacts_.adopt(state.pair_springs);
   grain_contacts_.adopt(state.broken_bonds);
   wall_contacts_.adopt(state.wall_springs);
@@ -74,7 +74,7 @@ void Simulation::step() {
   ++step_;
   count_work();
   phase_times_.motion += watch.lap();
-  agree_on_what_comes();
+  reduce_step_status();
   phase_times_.agreement += watch.lap();
 }
 
@@ -86,13 +86,13 @@ void Simulation::bring_up_to_date() {
   wall_contacts_.move_walls(driven_walls_, step_, setup_.time_step);
   if (membrane() != nullptr) membrane_->follow(wall_contacts_.poses());
   if (lists_are_stale_) {
-    let_grains_out();
-    if (cell_) budget_.gradient = cell_->gradient();
-    list_reach_ = 2 * (largest_radius_ + largest_budget()) + longest_gap();
+    remove_outflow_grains();
+    if (cell_) adaptive_skin_.gradient = cell_->gradient();
+    list_reach_ = 2 * (largest_radius_ + max_skin()) + longest_gap();
     if (cell_) require_wide_cell(list_reach_);
     distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_, costs_,
                                list_reach_, cell());
-    put_in_order();
+    sort_by_morton_order();
     phase_times_.migration += watch.lap();
     distribution_.list_ghosts(grains_);
     phase_times_.border += watch.lap();
@@ -124,7 +124,7 @@ void Simulation::receive_ghosts() {
 }
 
 /// Their springs go with them when lists are made anew.
-void Simulation::let_grains_out() {
+void Simulation::remove_outflow_grains() {
   if (setup_.outflows.empty()) return;
   const auto before = static_cast<std::int64_t>(departed_.size());
   Grains staying;
@@ -147,7 +147,7 @@ void Simulation::let_grains_out() {
 }
 
 /// Neighbours in space become neighbours in memory.
-void Simulation::put_in_order() {
+void Simulation::sort_by_morton_order() {
   const std::vector<std::uint32_t> order = space_order(places_in(cell(), grains_.position));
   if (std::is_sorted(order.begin(), order.end())) return;
   Grains ordered;
@@ -183,18 +183,19 @@ void Simulation::update_ghost_frames() {
 }
 
 void Simulation::rebuild_lists() {
-  grain_contacts_.rebuild(distribution_.find_pairs(frames_, budget_, longest_gap(), grains_.size()),
-                          frames_.size());
-  wall_contacts_.rebuild(owned_frames(), budget_);
+  grain_contacts_.rebuild(
+      distribution_.find_pairs(frames_, adaptive_skin_, longest_gap(), grains_.size()),
+      frames_.size());
+  wall_contacts_.rebuild(owned_frames(), adaptive_skin_);
   membrane_contacts_.forget();
   listed_grains_.clear();
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
-    listed_grains_.push_back(
-        {grains_.position[slot], budget_.of(grains_.velocity[slot], grains_.position[slot])});
+    listed_grains_.push_back({grains_.position[slot],
+                              adaptive_skin_.of(grains_.velocity[slot], grains_.position[slot])});
   }
   listed_walls_.clear();
   for (const WallPose& pose : wall_contacts_.poses()) {
-    listed_walls_.push_back({pose.displacement, budget_.of(pose.velocity)});
+    listed_walls_.push_back({pose.displacement, adaptive_skin_.of(pose.velocity)});
   }
   cell_since_lists_ = UpperMat3::identity();
   lists_are_stale_ = false;
@@ -224,7 +225,7 @@ void Simulation::evaluate_contacts() {
   // Inner pairs and walls hide the time in which ghosts are on their way.
   grain_contacts_.evaluate(frames_, setup_.time_step, grains_.size(), [&] {
     phase_times_.grain_contacts += watch.lap();
-    wall_contacts_.evaluate(owned_frames(), grain_contacts_.meter(), setup_.time_step);
+    wall_contacts_.evaluate(owned_frames(), grain_contacts_.displacements(), setup_.time_step);
     phase_times_.wall_contacts += watch.lap();
     receive_ghosts();
     watch = {};
@@ -235,10 +236,10 @@ void Simulation::evaluate_contacts() {
 }
 
 /// The largest of all ranks for the lists about to be made [m].
-double Simulation::largest_budget() const {
+double Simulation::max_skin() const {
   return distribution_.ranks().max(
-      parallel_max(grains_.size(), budget_.least, [&](std::size_t slot) {
-        return budget_.of(grains_.velocity[slot], grains_.position[slot]);
+      parallel_max(grains_.size(), adaptive_skin_.min, [&](std::size_t slot) {
+        return adaptive_skin_.of(grains_.velocity[slot], grains_.position[slot]);
       }));
 }
 
@@ -248,9 +249,9 @@ double Simulation::longest_gap() const {
 }
 
 /// Whether some grain of this rank, or some wall, has moved as far as it was listed for.
-bool Simulation::some_budget_is_used_up() const {
+bool Simulation::skin_is_used_up() const {
   const auto used_up = [](const Listed& listed, const Vec3& place) {
-    return !(squared_norm(place - listed.place) < listed.budget * listed.budget);
+    return !(squared_norm(place - listed.place) < listed.skin * listed.skin);
   };
   const auto poses = poses_at(setup_.walls, driven_walls_, step_, setup_.time_step);
   for (std::size_t w = 0; w < listed_walls_.size(); ++w) {
@@ -262,7 +263,7 @@ bool Simulation::some_budget_is_used_up() const {
     return parallel_max(grains_.size(), 0, [&](std::size_t slot) {
              const Listed& listed = listed_grains_[slot];
              const Vec3 own = grains_.position[slot] - motion.carried(listed.place);
-             return norm(own) + shared < listed.budget ? 0.0 : 1.0;
+             return norm(own) + shared < listed.skin ? 0.0 : 1.0;
            }) > 0;
   }
   return parallel_max(grains_.size(), 0, [&](std::size_t slot) {
@@ -271,11 +272,11 @@ bool Simulation::some_budget_is_used_up() const {
 }
 
 /// One small reduction per step: do lists serve one more step, and is everybody still well?
-void Simulation::agree_on_what_comes() {
+void Simulation::reduce_step_status() {
   constexpr double fine = 0;
   constexpr double stale = 1;
   constexpr double failed = 2;
-  double news = some_budget_is_used_up() ? stale : fine;
+  double news = skin_is_used_up() ? stale : fine;
   news = std::max(news, parallel_max(grains_.size(), fine, [&](std::size_t slot) {
                     if (!motion_is_finite(slot)) return failed;
                     return is_out(slot) ? stale : fine;

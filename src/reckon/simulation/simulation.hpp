@@ -78,7 +78,7 @@ struct SimulationSetup {
   double time_step{0};  ///< [s]
   /// What takes turns: a stage sets friction, gravity and damping anew. Empty: no stages.
   std::vector<StageSetup> stages;
-  double skin{0};  ///< of the pair lists (MotionBudget); changes the speed, never the answer [m]
+  double skin{0};  ///< of the pair lists (AdaptiveSkin); changes the speed, never the answer [m]
   ContactEngine engine{ContactEngine::near};                     ///< likewise
   SimdLevel simd{SimdLevel::automatic};                          ///< likewise
   DecompositionKind decomposition{DecompositionKind::balanced};  ///< likewise
@@ -214,8 +214,8 @@ class Simulation {
 
  private:
   void bring_up_to_date();
-  void let_grains_out();
-  void put_in_order();
+  void remove_outflow_grains();
+  void sort_by_morton_order();
   void require_shapes();
   void update_inertias();
   void update_ghost_frames();
@@ -235,7 +235,7 @@ class Simulation {
   void let_membrane_take_place();
   [[nodiscard]] double membrane_pressure() const;
   void evaluate_membrane();
-  void take_over_cell(const SimulationState& state);
+  void restore_cell(const SimulationState& state);
   void begin_stage_of_cell();
   void drive_cell();
   void move_cell();
@@ -248,11 +248,11 @@ class Simulation {
   void advance_grains();
   void advance_walls();
   void commit_springs();
-  void agree_on_what_comes();
+  void reduce_step_status();
 
-  [[nodiscard]] double largest_budget() const;
+  [[nodiscard]] double max_skin() const;
   [[nodiscard]] double longest_gap() const;
-  [[nodiscard]] bool some_budget_is_used_up() const;
+  [[nodiscard]] bool skin_is_used_up() const;
   [[nodiscard]] bool is_out(std::size_t slot) const;
   [[nodiscard]] bool is_outside(std::size_t slot) const;
   [[nodiscard]] bool motion_is_finite(std::size_t slot) const;
@@ -288,10 +288,10 @@ class Simulation {
 
   /// Where a grain was, or a wall's displacement, when the lists were made, and how far it may go.
   struct Listed {
-    Vec3 place;        // [m]
-    double budget{0};  // [m]
+    Vec3 place;      // [m]
+    double skin{0};  // [m]
   };
-  MotionBudget budget_;
+  AdaptiveSkin adaptive_skin_;
   std::vector<Listed> listed_grains_;
   std::vector<Listed> listed_walls_;
   bool lists_are_stale_{true};

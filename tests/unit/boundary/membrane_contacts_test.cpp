@@ -103,12 +103,12 @@ TEST_F(BallInMembrane, TakesTheOppositeOfWhatItGives) {
 TEST_F(BallInMembrane, BothEnginesGiveTheSameBits) {
   MembraneContacts near{ContactEngine::near};
   MembraneContacts plain{ContactEngine::plain};
-  MotionMeter meter;
+  DisplacementBound displacements;
   for (int n = 0; n < 300; ++n) {
     const double x = 1.4 * std::sin(0.03 * n);
     const auto frames = at({x, 0.2 * std::sin(0.05 * n), 0.3});
-    meter.follow(frames);
-    near.evaluate(*membrane_, frames, meter, dt);
+    displacements.follow(frames);
+    near.evaluate(*membrane_, frames, displacements, dt);
     plain.evaluate(*membrane_, frames, {}, dt);
     ASSERT_EQ(near.forces().size(), plain.forces().size()) << n;
     for (std::size_t c = 0; c < near.forces().size(); ++c) {

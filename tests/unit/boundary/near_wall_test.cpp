@@ -7,7 +7,7 @@
 #include <array>
 #include <numbers>
 
-#include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/displacement_bound.hpp"
 #include "support/random_motion.hpp"
 #include "support/test_shapes.hpp"
 
@@ -84,10 +84,10 @@ TEST(NearWall, MissesNoTouchWhateverTheMotion) {
     std::vector<GrainFrame> frames{{GrainId{0}, &views[walk / 3 % 3]}};
     RandomMotion motion{random, frames[0], {3.2, 1.2, 2.2}};
     WallPose pose;
-    double wall_travelled = 0;
-    MotionMeter meter;
+    double wall_path_length = 0;
+    DisplacementBound displacements;
     NearWall list;
-    double wake = wake_always;
+    double next_check = check_always;
     for (int step = 0; step < 400; ++step) {
       const double stride = std::exp2(random.uniform(-17, -1));
       const double from_wall = distance(wall, pose, frames[0].position);
@@ -96,18 +96,18 @@ TEST(NearWall, MissesNoTouchWhateverTheMotion) {
       motion.move(stride, (from_wall > 1 ? -stride : from_wall < 0.3 ? stride : 0) * away);
       const Vec3 shift{random.uniform(-0.1, 0.1) * stride, 0, 0};
       pose.displacement += shift;
-      wall_travelled = (wall_travelled + norm(shift)) * (1 + 1e-15);
-      meter.follow(frames);
-      const double odometer = meter.travelled()[0] + wall_travelled;
+      wall_path_length = (wall_path_length + norm(shift)) * (1 + 1e-15);
+      displacements.follow(frames);
+      const double path_length = displacements.path_lengths()[0] + wall_path_length;
       std::vector<Touch> expected;
       find_wall_touches(frames[0], wall, pose, expected);
-      if (odometer < wake) {
+      if (path_length < next_check) {
         ASSERT_TRUE(expected.empty()) << "walk " << walk << " step " << step;
         ++slept;
         continue;
       }
       std::vector<Touch> found;
-      wake = list.find_touches(frames[0], wall, pose, odometer, found, counters);
+      next_check = list.find_touches(frames[0], wall, pose, path_length, found, counters);
       ASSERT_EQ(found.size(), expected.size());
       for (std::size_t n = 0; n < found.size(); ++n) {
         ASSERT_EQ(found[n].node, expected[n].node);

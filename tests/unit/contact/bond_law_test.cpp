@@ -40,7 +40,7 @@ class TwoBondedGrains : public ::testing::Test {
     return frame_of(id, view_, pose.position, pose.orientation, {}, {}, 2000);
   }
   BondForce force(const Pose& a, const Pose& b) const {
-    return law_.respond(bond_, frame(GrainId{0}, a), frame(GrainId{1}, b));
+    return law_.bond_force(bond_, frame(GrainId{0}, a), frame(GrainId{1}, b));
   }
   /// Of b, moved and then turned about the place of the bond.
   BondForce force_with(const Vec3& move, const Vec3& axis, double angle) const {

@@ -40,7 +40,7 @@ TEST(HertzLaw, GivesHertzsForceEnergyAndStiffness) {
   const HertzLaw law = hertz_law(70e9, 0.3, true, 0);
   EXPECT_NEAR(law.normal_modulus, 70e9 / 0.91, 1);
   const PairContext context = lens();
-  const NodeResponse r = law.respond(context, whole_lens(context), up, {}, {});
+  const NodeForce r = law.node_force(context, whole_lens(context), up, {}, {});
   const double force = 4.0 / 3 * law.normal_modulus * std::sqrt(radius) * std::pow(overlap, 1.5);
   EXPECT_NEAR(r.force.z / force, 1, 1e-12);
   EXPECT_NEAR(r.elastic / (0.4 * force * overlap), 1, 1e-12);
@@ -53,7 +53,7 @@ TEST(HertzLaw, GivesMindlinsTangentialStiffness) {
   const HertzLaw law = hertz_law(50e9, nu, false, 0);
   const PairContext context = lens(1e9);
   const Vec3 velocity{1e-3, 0, 0};
-  const NodeResponse r = law.respond(context, whole_lens(context), up, velocity, {});
+  const NodeForce r = law.node_force(context, whole_lens(context), up, velocity, {});
   const double found = -r.shear_force.x / (velocity.x * context.time_step);
   EXPECT_NEAR(found / law.pair_stiffness(context), 2 * (1 - nu) / (2 - nu), 1e-9);
 }
@@ -62,9 +62,9 @@ TEST(HertzLaw, FrictionIsCappedAndNoNodePulls) {
   const HertzLaw law = hertz_law(50e9, 0.25, false, hertz_dashpot_factor(0.2));
   const PairContext context = lens(0.4);
   const Touch touch = whole_lens(context);
-  const NodeResponse sliding = law.respond(context, touch, up, {1e5, 0, 0}, {});
+  const NodeForce sliding = law.node_force(context, touch, up, {1e5, 0, 0}, {});
   EXPECT_NEAR(norm(sliding.shear_force), 0.4 * sliding.force.z, 1e-6 * sliding.force.z);
-  EXPECT_EQ(law.respond(context, touch, up, {0, 0, 1e9}, {}).force, Vec3{});
+  EXPECT_EQ(law.node_force(context, touch, up, {0, 0, 1e9}, {}).force, Vec3{});
 }
 
 /// A mass falls onto the lens of a growing overlap.
@@ -81,7 +81,7 @@ TEST(HertzLaw, ReturnsTheSetRestitutionAtAnySpeed) {
         if (depth == 0) break;
         const PairContext context = lens(0, depth);
         velocity -= dt / mass *
-                    law.respond(context, whole_lens(context), up, {0, 0, -velocity}, {}).force.z;
+                    law.node_force(context, whole_lens(context), up, {0, 0, -velocity}, {}).force.z;
       } while (depth > 0 && velocity > -2 * speed);
       EXPECT_NEAR(-velocity / speed, restitution, 0.005) << restitution << " at " << speed;
     }

@@ -107,7 +107,7 @@ TEST(HertzLaw, PushIsMinusTheDerivativeOfTheEnergy) {
     double energy = 0;
     double push = 0;
     for (const Touch& touch : touches) {
-      const NodeResponse node = law.respond(pair, touch, up, {}, {});
+      const NodeForce node = law.node_force(pair, touch, up, {}, {});
       energy += node.elastic;
       push += node.force.z;
     }
@@ -123,7 +123,7 @@ TEST(HertzLaw, PushIsMinusTheDerivativeOfTheEnergy) {
 TEST(LinearLaw, ForceIsStiffnessTimesDepthAlongTheUnitNormal) {
   const LinearLaw law{1e5, 9e4, 0, 0};
   const Touch touch{.node = 0, .phi = -1e-3, .gradient_world = {0, 0, 0.8}};
-  const NodeResponse r = law.respond(context(0), touch, up, {}, {});
+  const NodeForce r = law.node_force(context(0), touch, up, {}, {});
   EXPECT_NEAR(r.force.z, 100, 1e-12);  // the gradient's length does not count
   EXPECT_NEAR(r.elastic, 0.5 * 1e5 * 1e-6, 1e-15);
 }
@@ -140,26 +140,26 @@ TEST(LinearLaw, CapScalesPairsWithManyNodes) {
 TEST(AreaLaw, ForceFollowsAreaDepthAndTheGradientAsItIs) {
   const AreaLaw law{1e8, 5e7, 0};
   const Touch touch{.node = 0, .phi = -1e-3, .gradient_world = {0, 0, 0.8}, .area = 0.005};
-  const NodeResponse r = law.respond(context(0), touch, up, {}, {});
+  const NodeForce r = law.node_force(context(0), touch, up, {}, {});
   EXPECT_NEAR(r.force.z, 1e8 * 0.005 * 1e-3 * 0.8, 1e-9);
 }
 
 TEST(AreaLaw, DashpotNeverPulls) {
   const AreaLaw law{1e8, 5e7, 1.5};
   const Touch touch{.node = 0, .phi = -1e-6, .gradient_world = up, .area = 0.005};
-  const NodeResponse leaving = law.respond(context(0.5), touch, up, {0, 0, 50}, {{1, 0, 0}, 1e5});
+  const NodeForce leaving = law.node_force(context(0.5), touch, up, {0, 0, 50}, {{1, 0, 0}, 1e5});
   EXPECT_EQ(leaving.force, Vec3{});  // no push, hence no friction either
-  const NodeResponse coming = law.respond(context(0), touch, up, {0, 0, -50}, {});
+  const NodeForce coming = law.node_force(context(0), touch, up, {0, 0, -50}, {});
   EXPECT_GT(coming.force.z, 1e8 * 0.005 * 1e-6);
   EXPECT_GT(coming.dashpot_push, 0);
 }
 
 TEST(DashpotLoss, IsTheMeanPushTimesTheWayAndOfALeavingNodeTheWhole) {
-  const NodeResponse now{.dashpot_push = 6};
+  const NodeForce now{.dashpot_push = 6};
   const Touch deep{.phi = -1e-3};
   EXPECT_DOUBLE_EQ(dashpot_loss(10, now, deep, -2, 1e-4), 8 * 2e-4);
   EXPECT_DOUBLE_EQ(dashpot_loss(0, now, deep, -2, 1e-4), 3 * 2e-4);
-  const NodeResponse pulls{.dashpot_push = -6};
+  const NodeForce pulls{.dashpot_push = -6};
   EXPECT_DOUBLE_EQ(dashpot_loss(-10, pulls, deep, 2, 1e-4), 8 * 2e-4);
   const Touch leaving{.phi = -1e-4};
   EXPECT_DOUBLE_EQ(dashpot_loss(-10, pulls, leaving, 2, 1e-4), 11 * 2e-4);

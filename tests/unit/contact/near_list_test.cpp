@@ -7,7 +7,7 @@
 #include <deque>
 
 #include "reckon/contact/clearance.hpp"
-#include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/displacement_bound.hpp"
 #include "reckon/contact/pair_kernel.hpp"
 #include "reckon/core/random.hpp"
 #include "support/band_shape.hpp"
@@ -65,9 +65,9 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
     std::vector<GrainFrame> frames{{GrainId{0}, &shape_a}, {GrainId{1}, &shape_b}};
     RandomMotion a{random, frames[0], {}};
     RandomMotion b{random, frames[1], {0.9 * contact, 0, 0}};
-    MotionMeter meter;
+    DisplacementBound displacements;
     NearList list;
-    double wake = wake_always;
+    double next_check = check_always;
     for (int step = 0; step < 400; ++step) {
       const double stride = size * std::exp2(random.uniform(-17, -1));
       const Vec3 towards = frames[1].position - frames[0].position;
@@ -81,12 +81,12 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
       } else {
         b.move(stride, {});
       }
-      meter.follow(frames);
-      ASSERT_TRUE(meter.trustworthy());
-      const double odometer = meter.travelled()[0] + meter.travelled()[1];
+      displacements.follow(frames);
+      ASSERT_TRUE(displacements.trustworthy());
+      const double path_length = displacements.path_lengths()[0] + displacements.path_lengths()[1];
       std::vector<Touch> expected;
       find_touches(frames[0], frames[1], expected);
-      if (odometer < wake) {
+      if (path_length < next_check) {
         ASSERT_TRUE(expected.empty()) << "walk " << walk << " step " << step;
         ++slept;
         continue;
@@ -97,7 +97,7 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
         seen[0].shape = &bands[form_a];
         seen[1].shape = &bands[form_b];
       }
-      wake = list.find_touches(seen[0], seen[1], odometer, filter, found, counters);
+      next_check = list.find_touches(seen[0], seen[1], path_length, filter, found, counters);
       expect_same_touches(found, expected);
       if (HasFatalFailure()) FAIL() << "walk " << walk << " step " << step;
       touched += expected.empty() ? 0U : 1U;
@@ -114,20 +114,20 @@ TEST(NearList, LooksSeldomAtWhatApproachesSlowly) {
   const ShapeView view{sphere};
   std::vector<GrainFrame> frames{{GrainId{0}, &view}, {GrainId{1}, &view}};
   frames[1].position = {2.5, 0, 0};
-  MotionMeter meter;
+  DisplacementBound displacements;
   NearList list;
   ContactCounters counters;
-  double wake = wake_always;
+  double next_check = check_always;
   int looks = 0;
   std::vector<Touch> touches;
   while (touches.empty()) {
     frames[1].position.x -= 1e-4;
-    meter.follow(frames);
-    const double odometer = meter.travelled()[0] + meter.travelled()[1];
-    if (odometer < wake) continue;
+    displacements.follow(frames);
+    const double path_length = displacements.path_lengths()[0] + displacements.path_lengths()[1];
+    if (path_length < next_check) continue;
     ++looks;
-    wake = list.find_touches(frames[0], frames[1], odometer, point_filter(SimdLevel::automatic),
-                             touches, counters);
+    next_check = list.find_touches(frames[0], frames[1], path_length,
+                                   point_filter(SimdLevel::automatic), touches, counters);
   }
   EXPECT_LT(frames[1].position.x, 2.01);
   EXPECT_LT(looks, 100);
@@ -163,52 +163,52 @@ TEST(Clearance, NeverExceedsTheDistanceToTheInside) {
   }
 }
 
-TEST(MotionMeter, NoPointOutrunsTheMeter) {
+TEST(DisplacementBound, NoPointOutrunsTheMeter) {
   const Shape shape = testing::sphere(1.0, 50, 12);
   const ShapeView view{shape};
   RandomStream random{4, RandomPurpose::other, 0};
   for (int walk = 0; walk < 50; ++walk) {
     std::vector<GrainFrame> frames{{GrainId{5}, &view}};
     RandomMotion motion{random, frames[0], {random.uniform(-1e3, 1e3), 0, 0}};
-    MotionMeter meter;
-    meter.follow(frames);
+    DisplacementBound displacements;
+    displacements.follow(frames);
     const GrainFrame start = frames[0];
     for (int step = 0; step < 100; ++step) {
       motion.move(std::exp2(random.uniform(-30, 0)), {});
-      meter.follow(frames);
+      displacements.follow(frames);
       for (std::size_t n = 0; n < view.nodes.size(); ++n) {
         const Vec3 before = start.position + start.rotation * view.nodes.position(n);
         const Vec3 now = frames[0].position + frames[0].rotation * view.nodes.position(n);
-        ASSERT_LE(norm(now - before), meter.travelled()[0]);
+        ASSERT_LE(norm(now - before), displacements.path_lengths()[0]);
       }
     }
   }
 }
 
-TEST(MotionMeter, FollowsGrainsByIdAndTrustsOnlyRotations) {
+TEST(DisplacementBound, FollowsGrainsByIdAndTrustsOnlyRotations) {
   const Shape shape = testing::sphere(1.0, 50, 12);
   const ShapeView view{shape};
   std::vector<GrainFrame> frames{{GrainId{5}, &view}, {GrainId{9}, &view, {4, 0, 0}}};
-  MotionMeter meter;
-  meter.follow(frames);
-  EXPECT_EQ(meter.travelled()[0], 0);
+  DisplacementBound displacements;
+  displacements.follow(frames);
+  EXPECT_EQ(displacements.path_lengths()[0], 0);
   frames[1].position.x = 4.5;
-  meter.follow(frames);
+  displacements.follow(frames);
   std::swap(frames[0], frames[1]);
   frames.push_back({GrainId{1}, &view});
   frames[0].position.x = 4.25;
-  meter.follow(frames);
-  EXPECT_NEAR(meter.travelled()[0], 0.75, 1e-9);
-  EXPECT_GE(meter.travelled()[0], 0.75);
-  EXPECT_EQ(meter.travelled()[1], 0);
-  EXPECT_EQ(meter.travelled()[2], 0);
-  EXPECT_TRUE(meter.trustworthy());
+  displacements.follow(frames);
+  EXPECT_NEAR(displacements.path_lengths()[0], 0.75, 1e-9);
+  EXPECT_GE(displacements.path_lengths()[0], 0.75);
+  EXPECT_EQ(displacements.path_lengths()[1], 0);
+  EXPECT_EQ(displacements.path_lengths()[2], 0);
+  EXPECT_TRUE(displacements.trustworthy());
   frames[2].rotation = rotation_matrix({0.5, 0.5, 0.5, 0.501});
-  meter.follow(frames);
-  EXPECT_FALSE(meter.trustworthy());
+  displacements.follow(frames);
+  EXPECT_FALSE(displacements.trustworthy());
   frames[2].rotation = rotation_matrix(normalized(Quaternion{0.5, 0.5, 0.5, 0.501}));
-  meter.follow(frames);
-  EXPECT_TRUE(meter.trustworthy());
+  displacements.follow(frames);
+  EXPECT_TRUE(displacements.trustworthy());
 }
 
 }  // namespace

@@ -51,10 +51,10 @@ std::deque<testing::BandShape> forms() {
   return shapes;
 }
 
-Placement some_place(const ShapeView& grain, std::uint64_t seed) {
+RelativePose some_place(const ShapeView& grain, std::uint64_t seed) {
   RandomStream random{seed, RandomPurpose::other, 4};
   const auto part = [&] { return random.uniform(-1, 1); };
-  Placement at;
+  RelativePose at;
   at.turn = rotation_matrix(normalized(Quaternion{part(), part(), part(), part()}));
   at.shift = 0.7 * grain.bounding_radius * Vec3{part(), part(), part()};
   return at;
@@ -94,7 +94,7 @@ TEST(PointFilter, BoundsTheClearanceFromBelow) {
       const Clearance clearance{grain};
       for (std::uint64_t seed = 0; seed < 50; ++seed) {
         const Cloud cloud{grain, seed};
-        const Placement at = some_place(grain, seed);
+        const RelativePose at = some_place(grain, seed);
         const FilterTarget target{grain, at, grain.bounding_radius, skin};
         const double precision = target.margin * target.spacing;
         ASSERT_LT(precision, 2e-3 * grain.bounding_radius);

@@ -73,14 +73,14 @@ void expect_same_bits(const Law& law) {
       for (const Meeting& m : meetings) {
         batch.add(m.context, m.center, m.master, m.slave, m.touches, m.old_springs);
       }
-      batch.respond(law, meetings[0].context.friction, dt, law_lanes(level));
+      batch.evaluate(law, meetings[0].context.friction, dt, law_lanes(level));
       for (std::size_t n = 0; n < meetings.size(); ++n) {
         const Meeting& m = meetings[n];
         std::vector<NodeSpring> expected_springs;
         std::vector<NodeSpring> springs;
         const DirectedForce expected =
-            respond(law, m.context, m.center, m.master, m.slave, m.touches, m.old_springs, true,
-                    0.5, expected_springs);
+            pair_force(law, m.context, m.center, m.master, m.slave, m.touches, m.old_springs, true,
+                       0.5, expected_springs);
         const DirectedForce found = batch.sum(n, law, m.old_springs, true, 0.5, springs);
         ASSERT_EQ(bits(found), bits(expected)) << n;
         ASSERT_EQ(springs, expected_springs) << n;

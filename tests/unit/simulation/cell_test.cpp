@@ -322,7 +322,7 @@ TEST(Cell, EndsInTheSameBitsWithEveryEngineSkinAndRestart) {
         EXPECT_EQ(second.state().cell, expected.cell);
         EXPECT_EQ(second.measure(), measured);
         const ContactCounters& counters = second.grain_contacts().counters();
-        EXPECT_LT(counters.awake, counters.pairs / 10 * 9);
+        EXPECT_LT(counters.due, counters.pairs / 10 * 9);
         if (::testing::Test::HasFailure()) break;
       }
     }

@@ -6,7 +6,7 @@
 
 #include "reckon/core/error.hpp"
 #include "reckon/parallel/threads.hpp"
-#include "reckon/simulation/placement.hpp"
+#include "reckon/simulation/fill_region.hpp"
 #include "support/same_state.hpp"
 #include "support/test_shapes.hpp"
 

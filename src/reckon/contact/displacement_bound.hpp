@@ -36,18 +36,19 @@ struct CellMotion {
   }
 };
 
-/// How far each grain has travelled: a bound that only grows. No point of grain g that lies within
-/// its bounding radius moves farther between two calls of follow() than travelled()[g] grows:
+/// An upper bound on how far each grain has moved: its path length, which only grows. Between two
+/// calls of follow(), no point of grain g within its bounding radius moves farther than
+/// path_lengths()[g] grows:
 ///
 ///   |x' - x| + R ||Q' - Q||        summed over the calls and rounded upward
 ///
-/// So two grains that are known to be `d` apart do not touch before the sum of what both have
-/// travelled has grown by d. The meter looks at frames alone, whatever moved them.
+/// So two grains that are known to be `d` apart do not touch before the sum of both path lengths
+/// has grown by d. The bound depends on the frames alone, whatever moved the grains.
 ///
 /// In a periodic cell x is that which the cell's own motion F carried along, and half of what F
 /// does to two near grains is added to each: a grain far from the centre is no faster than one near
 /// it.
-class MotionMeter {
+class DisplacementBound {
  public:
   /// Adds the motion since the last call. Slots may hold other grains than before: a grain is
   /// followed by its id, and one that was not there starts anew.
@@ -64,7 +65,7 @@ class MotionMeter {
   /// known before, and nothing learnt now.
   [[nodiscard]] bool trustworthy() const { return trustworthy_; }
 
-  [[nodiscard]] std::span<const double> travelled() const { return travelled_; }
+  [[nodiscard]] std::span<const double> path_lengths() const { return path_lengths_; }
 
  private:
   struct Seen {
@@ -75,8 +76,8 @@ class MotionMeter {
   void reorder(std::span<const GrainFrame> frames);
   [[nodiscard]] double motion_of(const GrainFrame& now, const Seen& before) const;
 
-  std::vector<Seen> seen_;         // per slot, at the last call
-  std::vector<double> travelled_;  // per slot [m]
+  std::vector<Seen> seen_;            // per slot, at the last call
+  std::vector<double> path_lengths_;  // per slot [m]
   bool trustworthy_{true};
   std::optional<CellMotion> cell_;
 };

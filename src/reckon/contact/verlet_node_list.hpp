@@ -14,14 +14,14 @@
 
 namespace reckon {
 
-/// Nodes that are near something, and when each must be looked at again.
+/// A Verlet list of nodes: those that are near something, and when each must be checked again.
 ///
-/// Time is measured in motion: the odometer is what both sides have travelled together
-/// (MotionMeter). A node whose clearance was d when the odometer stood at m cannot touch before it
-/// stands at m + d: that is the node's wake-up. Nodes that are not in the list are all farther than
-/// `rest`, so the list as a whole is complete until the odometer passes m + rest.
+/// The clock is the path length: the sum of what both sides have moved (DisplacementBound). A node
+/// whose clearance was d at the path length m cannot touch before the path length is m + d: that is
+/// the node's next check. All nodes that are not in the list are farther away than `rest`, so the
+/// list as a whole is complete until the path length passes m + rest.
 ///
-///       phi                                  list        wakes at
+///       phi                                  list        next check
 ///        |   . . . . . . . . rest . . .      node  17    m + 0.020
 ///        |      o      o                     node  18    always: it touches
 ///   -----+--------x------x--------------     node  19    always: it touches
@@ -29,13 +29,13 @@ namespace reckon {
 ///
 /// All of it is one block of memory. A step on a resting contact reads its front and no more:
 ///
-///   | marks, Partner | Reference | touching nodes by index | other nodes by index | wake-ups |
+///   | marks, Partner | Reference | touching nodes by index | other nodes by index | next checks |
 ///
 /// Partner: what a test needs of the other side. Reference: how both lay when the list was made.
-/// Node: what a test needs of a node; it has the field `NodeIndex node`. Wake-ups stand apart from
-/// their nodes, since most are looked at without them.
+/// Node: what a test needs of a node; it has the field `NodeIndex node`. The next checks stand
+/// apart from the nodes, since most are read without them.
 template <class Partner, class Reference, class Node>
-class WakeList {
+class VerletNodeList {
   static_assert(std::is_trivially_copyable_v<Partner> && std::is_trivially_copyable_v<Reference> &&
                 std::is_trivially_copyable_v<Node>);
 
@@ -46,63 +46,64 @@ class WakeList {
   /// Clearance of all nodes that are not listed, when the list was made [m].
   [[nodiscard]] double rest() const { return block_->rest; }
 
-  [[nodiscard]] bool complete_at(double odometer) const {
-    return block_ && odometer < block_->complete_until;
+  [[nodiscard]] bool complete_at(double path_length) const {
+    return block_ && path_length < block_->complete_until;
   }
-  void set_complete_until(double odometer) { block_->complete_until = odometer; }
+  void set_complete_until(double path_length) { block_->complete_until = path_length; }
 
   /// Starts the list anew with room for `count` nodes, which set_node must then fill in node order.
-  void restart(const Partner& partner, const Reference& reference, double odometer, double rest,
+  void restart(const Partner& partner, const Reference& reference, double path_length, double rest,
                std::size_t count) {
     reserve(static_cast<std::uint32_t>(count));
-    block_->complete_until = odometer + rest;
-    block_->next_wake = odometer;
+    block_->complete_until = path_length + rest;
+    block_->earliest_check = path_length;
     block_->rest = rest;
     block_->touching = 0;
     block_->count = static_cast<std::uint32_t>(count);
     block_->partner = partner;
     block_->reference = reference;
   }
-  void set_node(std::size_t n, const Node& node, double wake) {
+  void set_node(std::size_t n, const Node& node, double next_check) {
     nodes()[n] = node;
-    wakes()[n] = wake;
+    next_checks()[n] = next_check;
   }
 
-  /// Calls test(node) for every node that may touch. It returns the node's wake-up, or, if the node
-  /// touches, wake_always after appending to `touches`. Touches end up in node order.
-  /// Returns the odometer reading before which no node of the list can touch.
+  /// Calls test(node) for every node that may touch. It returns the node's next check, or, if the
+  /// node touches, check_always after appending to `touches`. Touches end up in node order. Returns
+  /// the path length before which no node of the list can touch.
   template <class Test>
-  double look(double odometer, std::vector<Touch>& touches, Test&& test) {
+  double look(double path_length, std::vector<Touch>& touches, Test&& test) {
     Head& head = *block_;
     Node* const node = nodes();
     bool changed = false;
     for (std::uint32_t n = 0; n < head.touching; ++n) {
-      const double wake = test(node[n]);
-      if (wake == wake_always) continue;
-      wakes()[n] = wake;
+      const double next_check = test(node[n]);
+      if (next_check == check_always) continue;
+      next_checks()[n] = next_check;
       changed = true;
     }
-    if (!(odometer < head.next_wake)) {
-      double* const wake = wakes();
-      head.next_wake = wake_never;
+    if (!(path_length < head.earliest_check)) {
+      double* const next_check = next_checks();
+      head.earliest_check = check_never;
       for (std::uint32_t n = head.touching; n < head.count; ++n) {
-        if (!(odometer < wake[n])) {
-          wake[n] = test(node[n]);
-          changed |= wake[n] == wake_always;
+        if (!(path_length < next_check[n])) {
+          next_check[n] = test(node[n]);
+          changed |= next_check[n] == check_always;
         }
-        head.next_wake = std::min(head.next_wake, wake[n]);
+        head.earliest_check = std::min(head.earliest_check, next_check[n]);
       }
     }
     if (changed) regroup(touches);
-    return head.touching > 0 ? wake_always : std::min(head.next_wake, head.complete_until);
+    return head.touching > 0 ? check_always : std::min(head.earliest_check, head.complete_until);
   }
 
   /// Memory held.
   [[nodiscard]] std::size_t bytes() const { return block_ ? bytes_for(block_->capacity) : 0; }
 
-  /// Asks the memory for the wake-ups if a look at this reading will read them. Reads the head.
-  void prefetch_wakes(double odometer) const {
-    if (block_ && !(odometer < block_->next_wake)) __builtin_prefetch(wakes());
+  /// Asks the memory for the next checks if a look at this path length will read them. Reads the
+  /// head.
+  void prefetch_next_checks(double path_length) const {
+    if (block_ && !(path_length < block_->earliest_check)) __builtin_prefetch(next_checks());
   }
   /// Asks the memory for what the next look reads first.
   void prefetch() const {
@@ -119,8 +120,8 @@ class WakeList {
 
  private:
   struct alignas(64) Head {
-    double complete_until;   // odometer reading
-    double next_wake;        // the earliest of the nodes that do not touch: odometer reading
+    double complete_until;   // path length [m]
+    double earliest_check;   // of the nodes that do not touch: path length [m]
     double rest;             // [m]
     std::uint32_t touching;  // nodes at the front
     std::uint32_t count;
@@ -141,7 +142,7 @@ class WakeList {
     return std::launder(reinterpret_cast<Node*>(block_.get() + 1));
   }
 
-  [[nodiscard]] double* wakes() const {
+  [[nodiscard]] double* next_checks() const {
     return std::launder(reinterpret_cast<double*>(nodes() + block_->capacity));
   }
 
@@ -162,31 +163,31 @@ class WakeList {
   void regroup(std::vector<Touch>& touches) {
     Head& head = *block_;
     Node* const node = nodes();
-    double* const wake = wakes();
+    double* const next_check = next_checks();
     /// Where the node belongs among those of [first, last).
     const auto place = [&](const Node& moving, std::uint32_t first, std::uint32_t last) {
       while (first < last && node[first].node < moving.node) ++first;
       return first;
     };
     for (std::uint32_t n = 0; n < head.touching;) {
-      if (wake[n] == wake_always) {
+      if (next_check[n] == check_always) {
         ++n;
         continue;
       }
       const std::uint32_t to = place(node[n], head.touching, head.count);
       std::rotate(node + n, node + n + 1, node + to);
-      std::rotate(wake + n, wake + n + 1, wake + to);
+      std::rotate(next_check + n, next_check + n + 1, next_check + to);
       --head.touching;
     }
-    head.next_wake = wake_never;
+    head.earliest_check = check_never;
     for (std::uint32_t n = head.touching; n < head.count; ++n) {
-      if (wake[n] != wake_always) {
-        head.next_wake = std::min(head.next_wake, wake[n]);
+      if (next_check[n] != check_always) {
+        head.earliest_check = std::min(head.earliest_check, next_check[n]);
         continue;
       }
       const std::uint32_t to = place(node[n], 0, head.touching);
       std::rotate(node + to, node + n, node + n + 1);
-      std::rotate(wake + to, wake + n, wake + n + 1);
+      std::rotate(next_check + to, next_check + n, next_check + n + 1);
       ++head.touching;
     }
     std::sort(touches.begin(), touches.end(),

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reckon/contact/motion_meter.hpp"
+#include "reckon/contact/displacement_bound.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ bool is_rotation(const Mat3& matrix) {
   return std::abs(squared_norm(matrix.row_x) - 1) <= squared_length_tolerance;
 }
 
-void MotionMeter::begin(std::span<const GrainFrame> frames, const CellMotion* cell) {
+void DisplacementBound::begin(std::span<const GrainFrame> frames, const CellMotion* cell) {
   cell_.reset();
   if (cell != nullptr && cell->deformation != UpperMat3::identity()) cell_ = *cell;
   const bool same_slots =
@@ -43,7 +43,7 @@ void MotionMeter::begin(std::span<const GrainFrame> frames, const CellMotion* ce
   trustworthy_ = true;
 }
 
-double MotionMeter::motion_of(const GrainFrame& now, const Seen& before) const {
+double DisplacementBound::motion_of(const GrainFrame& now, const Seen& before) const {
   const double turned = now.shape->bounding_radius * turn_distance(before.rotation, now.rotation);
   if (!cell_) return norm(now.position - before.position) + turned;
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
@@ -51,13 +51,14 @@ double MotionMeter::motion_of(const GrainFrame& now, const Seen& before) const {
          rounding * (norm(now.position) + norm(cell_->center)) + turned;
 }
 
-void MotionMeter::follow(std::span<const GrainFrame> frames, std::size_t first, std::size_t last) {
+void DisplacementBound::follow(std::span<const GrainFrame> frames, std::size_t first,
+                               std::size_t last) {
   const double bad = parallel_max(last - first, 0, [&](std::size_t n) {
     const std::size_t slot = first + n;
     const GrainFrame& now = frames[slot];
     Seen& before = seen_[slot];
     if (cell_ || now.position != before.position || now.rotation != before.rotation) {
-      travelled_[slot] = (travelled_[slot] + motion_of(now, before)) * round_up;
+      path_lengths_[slot] = (path_lengths_[slot] + motion_of(now, before)) * round_up;
       before.position = now.position;
       before.rotation = now.rotation;
     }
@@ -66,7 +67,7 @@ void MotionMeter::follow(std::span<const GrainFrame> frames, std::size_t first, 
   trustworthy_ = trustworthy_ && bad == 0;
 }
 
-void MotionMeter::reorder(std::span<const GrainFrame> frames) {
+void DisplacementBound::reorder(std::span<const GrainFrame> frames) {
   std::vector<std::uint32_t> by_id(seen_.size());
   for (std::uint32_t slot = 0; slot < by_id.size(); ++slot) by_id[slot] = slot;
   std::sort(by_id.begin(), by_id.end(),
@@ -80,13 +81,13 @@ void MotionMeter::reorder(std::span<const GrainFrame> frames) {
                          [&](std::uint32_t s, GrainId id) { return seen_[s].id < id; });
     if (old != by_id.end() && seen_[*old].id == frame.id) {
       seen[slot] = seen_[*old];
-      travelled[slot] = travelled_[*old];
+      travelled[slot] = path_lengths_[*old];
     } else {
       seen[slot] = {frame.id, frame.position, frame.rotation};
     }
   }
   seen_ = std::move(seen);
-  travelled_ = std::move(travelled);
+  path_lengths_ = std::move(travelled);
 }
 
 }  // namespace reckon

@@ -8,13 +8,13 @@ namespace reckon {
 
 /// How a master lies in its slave's body frame: a node of the master is at turn * node + shift.
 /// Every finder must compute it by these very expressions: the bits of phi depend on them.
-struct Placement {
+struct RelativePose {
   Mat3 turn;
   Vec3 shift;  ///< [m]
 };
 
-[[nodiscard]] inline Placement place(const GrainFrame& master, const GrainFrame& slave) {
-  Placement at;
+[[nodiscard]] inline RelativePose relative_pose(const GrainFrame& master, const GrainFrame& slave) {
+  RelativePose at;
   const Mat3 to_slave = transpose(slave.rotation);
   at.turn = to_slave * master.rotation;
   at.shift = to_slave * (master.position - slave.position);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reckon/simulation/placement.hpp"
+#include "reckon/simulation/fill_region.hpp"
 
 #include <gtest/gtest.h>
 
