@@ -39,28 +39,34 @@ struct Sums {
   }
 };
 
-/// Adds the contacts between grains that this rank counts: those whose first grain it owns. Counts
-/// the contacts of each own grain, those with ghosts included. Returns the largest force [N].
-double add_pairs(const Simulation& simulation, Sums& sums, std::vector<std::int64_t>& degree) {
-  const GrainContacts& contacts = simulation.grain_contacts();
+/// Adds the contacts that this rank counts: on walls and the membrane, and those between grains
+/// whose first grain it owns. Counts the contacts of each own grain, those with ghosts included.
+/// Returns the largest force between grains [N].
+double add_contacts(const Simulation& simulation, const Vec3& origin, Sums& sums,
+                    std::vector<std::int64_t>& degree) {
   const std::size_t owned = degree.size();
+  const std::span<const GrainFrame> frames = simulation.frames();
   double largest = 0;
-  for (std::size_t p = 0; p < contacts.pairs().size(); ++p) {
-    const Pair& pair = contacts.pairs()[p];
-    const PairForce& force = contacts.forces()[p];
-    if (!force.holds()) continue;
-    if (pair.slot_a < owned) ++degree[pair.slot_a];
-    if (pair.slot_b < owned) ++degree[pair.slot_b];
-    if (pair.slot_a >= owned) continue;
-    const Vec3 branch = simulation.branch(pair);
-    const double size = norm(force.force_on_a);
+  simulation.interactions().visit_contacts([&](const ContactView& contact) {
+    if (contact.slot < owned) ++degree[contact.slot];
+    const Vec3& position = frames[contact.slot].position;
+    if (contact.partner != ContactPartner::grain) {
+      sums.wall_branches.add(contact.first_moment);
+      sums.on_walls.add(outer(contact.force, position - origin));
+      sums.on_walls.add(contact.first_moment);
+      return;
+    }
+    if (contact.other < owned) ++degree[contact.other];
+    if (contact.slot >= owned) return;
+    const Vec3 branch = simulation.container().branch(position, frames[contact.other].position);
+    const double size = norm(contact.force);
     ++sums.contacts;
-    sums.pairs.add(outer(force.force_on_a, branch));
+    sums.pairs.add(outer(contact.force, branch));
     sums.branches.add(outer(normalized(branch), normalized(branch)));
     sums.force.add(size);
     sums.squared_force.add(size * size);
     largest = std::max(largest, size);
-  }
+  });
   return largest;
 }
 
@@ -77,27 +83,6 @@ void add_normals(const Simulation& simulation, Sums& sums) {
     if (normal == Vec3{}) continue;  // held only by its bond
     ++sums.with_normal;
     sums.normals.add(outer(normalized(normal), normalized(normal)));
-  }
-}
-
-void add_walls(const Simulation& simulation, const Vec3& origin, Sums& sums,
-               std::vector<std::int64_t>& degree) {
-  const WallContacts& contacts = simulation.wall_contacts();
-  for (std::size_t c = 0; c < contacts.candidates().size(); ++c) {
-    const WallForce& wall = contacts.forces()[c];
-    if (wall.touching == 0) continue;
-    const std::size_t slot = contacts.candidates()[c].slot;
-    ++degree[slot];
-    sums.wall_branches.add(wall.first_moment);
-    sums.on_walls.add(outer(wall.force, simulation.frames()[slot].position - origin));
-    sums.on_walls.add(wall.first_moment);
-  }
-  for (const MembraneForce& force : simulation.membrane_contacts().forces()) {
-    if (force.touching == 0) continue;
-    ++degree[force.slot];
-    sums.wall_branches.add(force.first_moment);
-    sums.on_walls.add(outer(force.force, simulation.frames()[force.slot].position - origin));
-    sums.on_walls.add(force.first_moment);
   }
 }
 
@@ -153,7 +138,7 @@ double axial_deviator(const DrivenAxis& axis, const Mat3& stress, double mean) {
 double largest_rate(const Simulation& simulation, const Enclosure& now) {
   const double dt = simulation.setup().time_step;
   if (const Membrane* membrane = simulation.membrane()) {  // along the axis: it bulges more slowly
-    const auto poses = simulation.wall_contacts().poses();
+    const auto poses = simulation.container().poses();
     const MembraneState& state = membrane->state();
     const Vec3 apart = poses[state.lid.get()].velocity - poses[state.floor.get()].velocity;
     return std::abs(dot(apart, state.start.axis_unit)) * now.areas[state.lid.get()] / now.volume;
@@ -164,8 +149,8 @@ double largest_rate(const Simulation& simulation, const Enclosure& now) {
                      std::abs(rate.diagonal.z), std::abs(rate.xy), std::abs(rate.xz),
                      std::abs(rate.yz)});
   }
-  std::vector<WallPose> before(simulation.wall_contacts().poses().begin(),
-                               simulation.wall_contacts().poses().end());
+  std::vector<WallPose> before(simulation.container().poses().begin(),
+                               simulation.container().poses().end());
   for (WallPose& pose : before) pose.displacement -= dt * pose.velocity;
   const auto space = enclosure_of(simulation.setup().walls, before);
   if (!space) return 0;
@@ -202,9 +187,8 @@ SampleMeasurement measure_sample(const Simulation& simulation) {
   const Vec3 centre = space ? 0.5 * (space->low + space->high) : Vec3{};
   Sums sums;
   std::vector<std::int64_t> degree(simulation.grains().size(), 0);
-  double largest_force = add_pairs(simulation, sums, degree);
+  double largest_force = add_contacts(simulation, centre, sums, degree);
   add_normals(simulation, sums);
-  add_walls(simulation, centre, sums, degree);
   add_grains(simulation, degree, sums);
   const Communicator& ranks = simulation.distribution().ranks();
   sums.reduce(ranks);

@@ -146,7 +146,7 @@ GoalState look_at(const StageGoal& goal, const Simulation& simulation,
     if (goal.stress_above && !all_stresses(stresses, above)) return false;
     if (goal.stress_below && !all_stresses(stresses, below)) return false;
     // Grains that gravity has yet to bring together do not overlap.
-    const bool in_flight = simulation.setup().body_force.gravity != Vec3{} &&
+    const bool in_flight = simulation.active_stage().gravity != Vec3{} &&
                            measurement.carried_share < rest_carried_share;
     return !goal.overlap || (!in_flight && measurement.deepest_overlap < *goal.overlap);
   };

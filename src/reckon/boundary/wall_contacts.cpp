@@ -46,11 +46,6 @@ WallForce force_of(const DirectedForce& directed, double overlap, const Mat3& fi
 
 }  // namespace
 
-void WallContacts::move_walls(std::span<const DrivenWall> driven, std::uint64_t step,
-                              double time_step) {
-  poses_ = poses_at(walls_, driven, step, time_step);
-}
-
 void WallContacts::set_friction(std::span<const double> friction) {
   for (std::size_t w = 0; w < walls_.size(); ++w) walls_[w].friction = friction[w];
 }

@@ -57,9 +57,8 @@ class WallContacts {
         removed_(walls_.size(), false),
         path_lengths_(walls_.size(), 0.0) {}
 
-  /// Places the walls for one step; `driven` as for poses_at. To be called before rebuild and
-  /// evaluate.
-  void move_walls(std::span<const DrivenWall> driven, std::uint64_t step, double time_step);
+  /// Places the walls for one step. To be called before rebuild and evaluate.
+  void move_walls(std::span<const WallPose> poses) { poses_.assign(poses.begin(), poses.end()); }
   /// Sets the Coulomb coefficient of every wall, in their order.
   void set_friction(std::span<const double> friction);
   /// Takes a wall away, with its springs, from the next rebuild on.

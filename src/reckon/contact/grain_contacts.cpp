@@ -340,27 +340,30 @@ bool GrainContacts::may_use_near_lists() {
   return displacements_.trustworthy();
 }
 
-void GrainContacts::evaluate(std::span<const GrainFrame> frames, double time_step,
-                             std::size_t owned, const std::function<void()>& others_arrive) {
+void GrainContacts::evaluate_part(bool with_others, std::span<const GrainFrame> frames,
+                                  double time_step) {
+  const Part part{static_cast<std::uint32_t>(owned_), with_others};
+  const bool near = may_use_near_lists();
+  std::visit([&](const auto& law) { evaluate_pairs(law, part, frames, time_step, near); },
+             settings_.law);
+}
+
+void GrainContacts::evaluate_interior(std::span<const GrainFrame> frames, double time_step,
+                                      std::size_t owned) {
   owned_ = owned;
-  const bool uses_displacements = engine_ == ContactEngine::near;
-  if (uses_displacements) {
+  if (engine_ == ContactEngine::near) {
     displacements_.begin(frames, cell_ ? &cell_motion_ : nullptr);
     displacements_.follow(frames, 0, owned);
   }
   store_.begin_writing(thread_count());
   scratch_.resize(static_cast<std::size_t>(thread_count()));
-  const auto evaluate_part = [&](bool with_others) {
-    const Part part{static_cast<std::uint32_t>(owned), with_others};
-    const bool near = may_use_near_lists();
-    std::visit([&](const auto& law) { evaluate_pairs(law, part, frames, time_step, near); },
-               settings_.law);
-  };
-  evaluate_part(false);
-  others_arrive();
-  if (owned < frames.size()) {
-    if (uses_displacements) displacements_.follow(frames, owned, frames.size());
-    evaluate_part(true);
+  evaluate_part(false, frames, time_step);
+}
+
+void GrainContacts::evaluate_border(std::span<const GrainFrame> frames, double time_step) {
+  if (owned_ < frames.size()) {
+    if (engine_ == ContactEngine::near) displacements_.follow(frames, owned_, frames.size());
+    evaluate_part(true, frames, time_step);
   }
   ++counters_.evaluations;
   counters_.pairs += pairs_.size();

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -84,13 +83,13 @@ class GrainContacts {
 
   /// Finds touching nodes and computes the force of every listed pair.
   void evaluate(std::span<const GrainFrame> frames, double time_step) {
-    evaluate(frames, time_step, frames.size(), [] {});
+    evaluate_interior(frames, time_step, frames.size());
+    evaluate_border(frames, time_step);
   }
-  /// The same while messages are on their way: pairs within the first `owned` frames come first;
-  /// then `others_arrive` is called, which must bring the other frames up to date (their ids are
-  /// there from the start); then come the pairs with those.
-  void evaluate(std::span<const GrainFrame> frames, double time_step, std::size_t owned,
-                const std::function<void()>& others_arrive);
+  /// The same in two parts, for messages that arrive in between. First the pairs within the first
+  /// `owned` frames; the other frames need only their ids. Then the pairs with the other frames.
+  void evaluate_interior(std::span<const GrainFrame> frames, double time_step, std::size_t owned);
+  void evaluate_border(std::span<const GrainFrame> frames, double time_step);
 
   /// Adds every pair's force to its grains, each grain's pairs in the order of the partners' ids,
   /// and the pair's losses to its grain of lower id. Arrays are per slot.
@@ -149,7 +148,7 @@ class GrainContacts {
     NearList of_b;
   };
 
-  /// Pairs of which frames are there already, or the others.
+  /// The pairs within the owned frames, or those with others.
   struct Part {
     std::uint32_t owned;
     bool with_others;
@@ -158,6 +157,7 @@ class GrainContacts {
       return with_others == (pair.slot_a >= owned || pair.slot_b >= owned);
     }
   };
+  void evaluate_part(bool with_others, std::span<const GrainFrame> frames, double time_step);
   void forget_near_lists();
   [[nodiscard]] bool may_use_near_lists();
   template <ContactLaw Law>

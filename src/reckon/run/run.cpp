@@ -336,7 +336,7 @@ class Session {
     fields.grains = simulation_.grain_states();
     if (const PeriodicCell* cell = simulation_.cell()) put_into(*cell, fields);
     if (config_.output.ranks) fields.ranks = ranks_of_grains(simulation_.grains().id, ranks_);
-    for (const WallPose& pose : simulation_.wall_contacts().poses()) {
+    for (const WallPose& pose : simulation_.container().poses()) {
       fields.wall_displacement.push_back(pose.displacement);
     }
     if (files_ != nullptr) fields.membrane = membrane_now(simulation_);

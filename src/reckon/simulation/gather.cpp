@@ -72,7 +72,7 @@ Vec3 foot_on_wall(const Wall& wall, const WallPose& pose, const Vec3& center) {
 }  // namespace
 
 std::vector<GrainState> Simulation::grain_states() {
-  bring_up_to_date();
+  update();
   receive_ghosts();
   std::vector<GrainState> own;
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) own.push_back(grains_.state(slot));
@@ -91,7 +91,7 @@ SimulationState Simulation::state() {
   std::vector<PairSprings> own_springs;
   std::vector<GrainId> own_ids = grains_.id;
   std::sort(own_ids.begin(), own_ids.end());
-  for (PairSprings& pair : grain_contacts_.springs()) {
+  for (PairSprings& pair : interactions_.grains().springs()) {
     if (std::binary_search(own_ids.begin(), own_ids.end(), pair.id_a)) {
       own_springs.push_back(std::move(pair));
     }
@@ -108,7 +108,7 @@ SimulationState Simulation::state() {
         return pair;
       });
   state.wall_springs = gather_springs<WallSprings, WallKey>(
-      ranks, wall_contacts_.springs(),
+      ranks, interactions_.walls().springs(),
       [](const WallSprings& w) {
         return WallKey{w.grain, w.wall, w.springs.size()};
       },
@@ -116,15 +116,14 @@ SimulationState Simulation::state() {
         return WallSprings{key.grain, key.wall, {}};
       });
   state.departed = gather(ranks, departed_);
-  for (const BrokenBonds& broken : gather(ranks, std::vector{grain_contacts_.broken_bonds()})) {
+  for (const BrokenBonds& broken :
+       gather(ranks, std::vector{interactions_.grains().broken_bonds()})) {
     state.broken_bonds.in_tension += broken.in_tension;
     state.broken_bonds.in_shear += broken.in_shear;
   }
   if (ranks.is_root()) {
-    state.driven_walls = driven_walls_;
     state.stage_starts = stage_starts_;
-    if (membrane() != nullptr) state.membrane = membrane_->state();
-    if (cell_) state.cell = cell_state_;
+    container_.save(state);
   }
   std::sort(state.departed.begin(), state.departed.end(),
             [](const DepartedGrain& a, const DepartedGrain& b) { return a.grain.id < b.grain.id; });
@@ -141,9 +140,7 @@ SimulationState Simulation::state() {
 
 std::vector<RankPerformance> Simulation::performance() const {
   RankPerformance own = done_;
-  own.phases = phase_times_;
   own.communication = distribution_.counters();
-  own.list_rebuilds = list_rebuilds_;
   own.peak_memory = peak_memory();
   own.shape_bytes = setup_.shapes.resident_bytes();
   own.rank_on_machine = static_cast<std::uint64_t>(setup_.shapes.rank_on_machine());
@@ -152,39 +149,30 @@ std::vector<RankPerformance> Simulation::performance() const {
 }
 
 std::vector<ContactRecord> Simulation::contacts() {
-  bring_up_to_date();
-  evaluate_contacts();
+  update();
+  compute_forces();
   std::vector<ContactRecord> records;
-  for (std::size_t p = 0; p < grain_contacts_.pairs().size(); ++p) {
-    const PairForce& force = grain_contacts_.forces()[p];
-    const Pair& pair = grain_contacts_.pairs()[p];
-    if (!force.holds() || pair.slot_a >= grains_.size()) continue;
-    Vec3 from = frames_[pair.slot_a].position;
-    Vec3 to = frames_[pair.slot_b].position;
-    if (cell_) {
-      from = cell_->wrapped(from);
-      to = from - branch(pair);
+  interactions_.visit_contacts([&](const ContactView& contact) {
+    if (contact.slot >= grains_.size()) return;  // the owner of its first grain has it
+    const Vec3& position = grains_.position[contact.slot];
+    const Vec3 from = container_.wrapped(position);
+    Vec3 to = contact.membrane_place;
+    std::uint32_t partner = contact.other;
+    switch (contact.partner) {
+      case ContactPartner::grain:
+        to = from - container_.branch(position, frames_[contact.other].position);
+        partner = frames_[contact.other].id.get();
+        break;
+      case ContactPartner::wall:
+        to = foot_on_wall(setup_.walls[partner], container_.poses()[partner], from);
+        break;
+      case ContactPartner::membrane:
+        partner = static_cast<std::uint32_t>(setup_.walls.size());
+        break;
     }
-    records.push_back({pair.id_a, false, pair.id_b.get(), from, to, force.force_on_a, force.deepest,
-                       force.touching, force.bonded});
-  }
-  for (std::size_t c = 0; c < wall_contacts_.candidates().size(); ++c) {
-    const WallForce& force = wall_contacts_.forces()[c];
-    if (force.touching == 0) continue;
-    const auto& candidate = wall_contacts_.candidates()[c];
-    const Vec3& position = grains_.position[candidate.slot];
-    const Vec3 center = cell_ ? cell_->wrapped(position) : position;
-    records.push_back({candidate.grain, true, candidate.wall.get(), center,
-                       foot_on_wall(setup_.walls[candidate.wall.get()],
-                                    wall_contacts_.poses()[candidate.wall.get()], center),
-                       force.force, force.deepest, force.touching});
-  }
-  for (const MembraneForce& force : membrane_contacts_.forces()) {
-    if (force.touching == 0) continue;
-    records.push_back(
-        {grains_.id[force.slot], true, static_cast<std::uint32_t>(setup_.walls.size()),
-         grains_.position[force.slot], force.place, force.force, force.deepest, force.touching});
-  }
+    records.push_back({grains_.id[contact.slot], contact.partner != ContactPartner::grain, partner,
+                       from, to, contact.force, contact.deepest, contact.touching, contact.bonded});
+  });
   records = gather(distribution_.ranks(), records);
   std::sort(records.begin(), records.end(), [](const ContactRecord& r, const ContactRecord& s) {
     if (r.with_wall != s.with_wall) return !r.with_wall;

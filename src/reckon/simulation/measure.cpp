@@ -7,6 +7,7 @@
 #include <numbers>
 #include <variant>
 
+#include "reckon/boundary/membrane_side.hpp"
 #include "reckon/math/portable.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "reckon/simulation/exact_totals.hpp"
@@ -69,11 +70,11 @@ EnergyBudget budget(const Sums& sums) {
 
 }  // namespace
 
-/// Whether a grain's centre is behind a wall. A mould that the membrane has replaced is none.
+/// Whether a grain's centre is behind a wall that bounds the sample.
 bool Simulation::is_outside(std::size_t slot) const {
-  const std::span<const WallPose> poses = wall_contacts_.poses();
+  const std::span<const WallPose> poses = container_.poses();
   for (std::uint32_t w = 0; w < setup_.walls.size(); ++w) {
-    if (membrane() != nullptr && setup_.membrane->mould == WallId{w}) continue;
+    if (!container_.is_in_place(WallId{w})) continue;
     const Vec3 place = grains_.position[slot] - poses[w].displacement;
     const double distance = std::visit([&](const auto& surface) { return surface.distance(place); },
                                        setup_.walls[w].surface);
@@ -83,8 +84,8 @@ bool Simulation::is_outside(std::size_t slot) const {
 }
 
 Measurement Simulation::measure() {
-  bring_up_to_date();
-  evaluate_contacts();
+  update();
+  compute_forces();
   std::vector<EnergyLedger> ledgers = grains_.ledger;  // with the losses up to this very step
   sum_loads(ledgers);
 
@@ -102,84 +103,62 @@ Measurement Simulation::measure() {
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
     const Inertia& body = inertias_[slot];
     const Load load = total_load(slot, push_besides_gravity(slot));
-    Vec3 velocity = velocity_in_cell(slot);
+    Vec3 velocity = container_.relative_velocity(grains_.position[slot], grains_.velocity[slot]);
     Vec3 spin = grains_.angular_velocity_body[slot];
     if (grains_.prescribed[slot] == 0) {
       // Velocities at the step: the mean of both half steps.
       const Kick half = kick({velocity, spin, grains_.angular_increment_body[slot]},
-                             frames_[slot].rotation, load, body, setup_.damping, setup_.time_step);
+                             frames_[slot].rotation, load, body, active_.damping, setup_.time_step);
       velocity = 0.5 * (velocity + half.velocity);
       spin = 0.5 * (spin + half.angular_velocity_body);
       sums.net_force.add(norm(load.force));
       sums.free_mass.add(body.mass);
       sums.free_kinetic.add(0.5 * body.mass * squared_norm(velocity));
       sums.free_kinetic.add(0.5 * dot(hadamard(body.moments, spin), spin));
-      sums.lift.add(body.mass * norm(setup_.body_force.gravity) * diameter(slot));
+      sums.lift.add(body.mass * norm(active_.gravity) * diameter(slot));
       if (is_outside(slot)) ++sums.outside;
     }
     sums.translation.add(0.5 * body.mass * squared_norm(velocity));
     sums.rotation.add(0.5 * dot(hadamard(body.moments, spin), spin));
-    sums.gravity.add(-body.mass * dot(setup_.body_force.gravity, grains_.position[slot]));
+    sums.gravity.add(-body.mass * dot(active_.gravity, grains_.position[slot]));
     sums.momentum.add(body.mass * velocity);
     add_ledger(sums, ledgers[slot]);
     result.largest_speed = std::max(result.largest_speed, norm(velocity));
   }
-  for (std::size_t p = 0; p < grain_contacts_.pairs().size(); ++p) {
-    const PairForce& pair = grain_contacts_.forces()[p];
-    const std::uint32_t slot_a = grain_contacts_.pairs()[p].slot_a;
-    const std::uint32_t slot_b = grain_contacts_.pairs()[p].slot_b;
-    if (!pair.holds()) continue;
-    if (norm(pair.force_on_a) > 0) {
-      carry(slot_a);
-      carry(slot_b);
+  sums.on_walls.resize(setup_.walls.size());
+  interactions_.visit_contacts([&](const ContactView& contact) {
+    const bool between_grains = contact.partner == ContactPartner::grain;
+    const double size = norm(contact.force);
+    if (size > 0) {
+      carry(contact.slot);
+      if (between_grains) carry(contact.other);
     }
     // A pair that two ranks share is counted by the owner of its first grain.
-    if (slot_a >= grains_.size()) continue;
-    ++sums.contacts;
-    if (pair.bonded) ++sums.bonds;
-    sums.touching_nodes += pair.touching;
-    sums.elastic.add(pair.elastic);
-    sums.contact_force.add(norm(pair.force_on_a));
-    result.deepest_overlap = std::max(result.deepest_overlap, pair.deepest);
-    result.overlap_ratio =
-        std::max(result.overlap_ratio, pair.deepest / std::min(diameter(slot_a), diameter(slot_b)));
-  }
-  sums.on_walls.resize(setup_.walls.size());
-  for (std::size_t c = 0; c < wall_contacts_.forces().size(); ++c) {
-    const WallForce& wall = wall_contacts_.forces()[c];
-    if (wall.touching == 0) continue;
-    ++sums.wall_contacts;
-    sums.touching_nodes += wall.touching;
-    sums.elastic.add(wall.elastic);
-    sums.contact_force.add(norm(wall.force));
-    sums.on_walls[wall_contacts_.candidates()[c].wall.get()].add(-wall.force);
-    const std::size_t slot = wall_contacts_.candidates()[c].slot;
-    if (norm(wall.force) > 0) carry(slot);
-    result.deepest_overlap = std::max(result.deepest_overlap, wall.deepest);
-    result.overlap_ratio = std::max(result.overlap_ratio, wall.deepest / diameter(slot));
-  }
-  for (const MembraneForce& force : membrane_contacts_.forces()) {
-    if (force.touching == 0) continue;
-    ++sums.wall_contacts;
-    sums.touching_nodes += force.touching;
-    sums.elastic.add(force.elastic);
-    sums.contact_force.add(norm(force.force));
-    if (norm(force.force) > 0) carry(force.slot);
-    result.deepest_overlap = std::max(result.deepest_overlap, force.deepest);
-    result.overlap_ratio = std::max(result.overlap_ratio, force.deepest / diameter(force.slot));
-  }
+    if (contact.slot >= grains_.size()) return;
+    ++(between_grains ? sums.contacts : sums.wall_contacts);
+    if (contact.bonded) ++sums.bonds;
+    sums.touching_nodes += contact.touching;
+    sums.elastic.add(contact.elastic);
+    sums.contact_force.add(size);
+    if (contact.partner == ContactPartner::wall) sums.on_walls[contact.other].add(-contact.force);
+    const double smaller = between_grains
+                               ? std::min(diameter(contact.slot), diameter(contact.other))
+                               : diameter(contact.slot);
+    result.deepest_overlap = std::max(result.deepest_overlap, contact.deepest);
+    result.overlap_ratio = std::max(result.overlap_ratio, contact.deepest / smaller);
+  });
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
     if (carried[slot] != 0 && grains_.prescribed[slot] == 0) sums.carried_mass.add(mass(slot));
   }
   // All ranks hold the whole membrane.
   const std::uint32_t told = membrane() != nullptr && distribution_.ranks().is_root()
-                                 ? static_cast<std::uint32_t>(membrane_->nodes().size())
+                                 ? static_cast<std::uint32_t>(membrane()->nodes().size())
                                  : 0;
   for (std::uint32_t node = 0; node < told; ++node) {
-    sums.translation.add(membrane_->kinetic_energy(node, setup_.time_step));
-    sums.elastic.add(membrane_->bond_energy(node));
-    sums.stretch.add(membrane_->bond_energy(node));
-    add_ledger(sums, membrane_->ledger(node));
+    sums.translation.add(membrane()->kinetic_energy(node, setup_.time_step));
+    sums.elastic.add(membrane()->bond_energy(node));
+    sums.stretch.add(membrane()->bond_energy(node));
+    add_ledger(sums, membrane()->ledger(node));
   }
   for (const DepartedGrain& gone : departed_) {
     const MassProperties& form = shapes_[gone.grain.shape.get()].mass;
@@ -187,13 +166,14 @@ Measurement Simulation::measure() {
     const Vec3& spin = gone.grain.angular_velocity_body;
     sums.departed_energy.add(0.5 * mass * squared_norm(gone.grain.velocity) +
                              0.5 * setup_.density * dot(hadamard(form.inertia, spin), spin) -
-                             mass * dot(setup_.body_force.gravity, gone.grain.position));
+                             mass * dot(active_.gravity, gone.grain.position));
     add_ledger(sums, gone.grain.ledger);
   }
   sums.grains = static_cast<std::int64_t>(grains_.size());
   sums.departed = static_cast<std::int64_t>(departed_.size());
-  sums.broken_in_tension = static_cast<std::int64_t>(grain_contacts_.broken_bonds().in_tension);
-  sums.broken_in_shear = static_cast<std::int64_t>(grain_contacts_.broken_bonds().in_shear);
+  sums.broken_in_tension =
+      static_cast<std::int64_t>(interactions_.grains().broken_bonds().in_tension);
+  sums.broken_in_shear = static_cast<std::int64_t>(interactions_.grains().broken_bonds().in_shear);
   const Communicator& ranks = distribution_.ranks();
   sums.reduce(ranks);
   result.deepest_overlap = ranks.max(result.deepest_overlap);
@@ -209,14 +189,18 @@ Measurement Simulation::measure() {
   result.broken_bonds = {static_cast<std::uint64_t>(sums.broken_in_tension),
                          static_cast<std::uint64_t>(sums.broken_in_shear)};
   result.energy = budget(sums);
-  if (cell_) result.energy.wall_work += cell_work_now();
+  if (const CellDrive* drive = container_.cell_drive(); drive != nullptr) {
+    result.energy.wall_work += drive->is_moving()
+                                   ? drive->work_until_now(cell_reaction(), setup_.time_step)
+                                   : drive->state().work;
+  }
   result.momentum = sums.momentum.value();
   for (const ExactVec3& force : sums.on_walls) result.wall_force.push_back(force.value());
   if (membrane() != nullptr) {
-    result.membrane_pressure = membrane_->pressure();
+    result.membrane_pressure = membrane()->pressure();
     result.membrane_stretch = sums.stretch.value();
-    for (std::uint32_t node = 0; node < membrane_->nodes().size(); ++node) {
-      if (membrane_->is_touched(node)) ++result.membrane_nodes;
+    for (std::uint32_t node = 0; node < membrane()->nodes().size(); ++node) {
+      if (membrane()->is_touched(node)) ++result.membrane_nodes;
     }
   }
   const auto touching_pairs = static_cast<double>(sums.contacts + sums.wall_contacts);
@@ -237,6 +221,27 @@ Measurement Simulation::measure() {
   result.kinetic_ratio = holding > 0 ? sums.free_kinetic.value() / holding : infinite;
   result.outside = static_cast<std::uint64_t>(sums.outside);
   return result;
+}
+
+std::optional<GrainOutside> Simulation::grain_outside_membrane() const {
+  if (membrane() == nullptr) return std::nullopt;
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  const MembraneSide side{*membrane()};
+  const auto rank_of = [](GrainId id) {
+    return -static_cast<double>(id.get());
+  };  // the lowest wins
+  const Communicator& ranks = distribution_.ranks();
+  const double found = ranks.max(parallel_max(grains_.size(), none, [&](std::size_t slot) {
+    const bool out = grains_.prescribed[slot] == 0 && side.is_outside(grains_.position[slot]);
+    return out ? rank_of(grains_.id[slot]) : none;
+  }));
+  if (found == none) return std::nullopt;
+  Vec3 position{none, none, none};
+  for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
+    if (rank_of(grains_.id[slot]) == found) position = grains_.position[slot];
+  }
+  for (int axis = 0; axis < 3; ++axis) position[axis] = ranks.max(position[axis]);
+  return GrainOutside{GrainId{static_cast<std::uint32_t>(-found)}, position};
 }
 
 }  // namespace reckon

@@ -39,88 +39,134 @@ Simulation::Simulation(SimulationSetup setup, const SimulationState& state,
       shapes_{setup_.shapes.views()},
       distribution_{ranks, setup_.decomposition, total_count(ranks, state.grains.size()),
                     total_count(ranks, state.grains.size() + state.departed.size())},
-      grain_contacts_{setup_.contact, setup_.engine, setup_.simd},
-      wall_contacts_{setup_.walls, setup_.engine, setup_.simd},
-      membrane_contacts_{setup_.engine},
       step_{root_step(ranks, state.step)},
-      adaptive_skin_{AdaptiveSkin::with(setup_.skin, setup_.time_step)} {
+      active_{setup_.body_force.gravity, setup_.damping},
+      departed_{state.departed},
+      container_{setup_, state, ranks},
+      interactions_{setup_, state},
+      list_skins_{setup_.skin, setup_.time_step} {
   for (const ShapeView& shape : shapes_) {
     largest_radius_ = std::max(largest_radius_, shape.bounding_radius);
   }
   for (const GrainState& grain : state.grains) grains_.push_back(grain);
-  restore_cell(state);
-  grain_contacts_.adopt(state.pair_springs);
-  grain_contacts_.adopt(state.broken_bonds);
-  wall_contacts_.adopt(state.wall_springs);
-  departed_ = state.departed;
-  take_over_membrane(state);
-  const bool first_stage_begins = take_over_walls_and_stages(state);
   costs_.assign(grains_.size(), 1.0);
-  if (first_stage_begins) set_bonds();
+  if (membrane() != nullptr) interactions_.remove_wall(setup_.membrane->mould);
+  restore_stages(state);
 }
 
+/// The paper's algorithm (section 2). Each line is explained in ARCHITECTURE.md, "One step in
+/// detail".
 void Simulation::step() {
-  bring_up_to_date();
-  evaluate_contacts();
+  update();
+  compute_forces();
   Stopwatch watch;
   sum_loads(grains_.ledger);
-  phase_times_.loads += watch.lap();
-  if (cell_) drive_cell();
+  done_.phases.loads += watch.lap();
+  drive_container();
   advance_grains();
-  advance_walls();
-  if (cell_) move_cell();
-  if (membrane() != nullptr) membrane_->advance(setup_.time_step);
-  commit_springs();
+  container_.advance();
+  interactions_.commit();
   ++step_;
   count_work();
-  phase_times_.motion += watch.lap();
+  done_.phases.motion += watch.lap();
   reduce_step_status();
-  phase_times_.agreement += watch.lap();
+  done_.phases.agreement += watch.lap();
 }
 
-/// Frames and, when someone's motion used up the skin, lists: all for where grains are now. Ghosts
-/// may still be on their way.
-void Simulation::bring_up_to_date() {
+/// Brings walls, frames and lists to the current step. If no lists are made, the new states of the
+/// ghosts are still on their way afterwards.
+void Simulation::update() {
   receive_ghosts();
   Stopwatch watch;
-  wall_contacts_.move_walls(driven_walls_, step_, setup_.time_step);
-  if (membrane() != nullptr) membrane_->follow(wall_contacts_.poses());
+  container_.place(step_);
+  interactions_.move_walls(container_.poses());
   if (lists_are_stale_) {
-    remove_outflow_grains();
-    if (cell_) adaptive_skin_.gradient = cell_->gradient();
-    list_reach_ = 2 * (largest_radius_ + max_skin()) + longest_gap();
-    if (cell_) require_wide_cell(list_reach_);
-    distribution_.redistribute(grains_, grain_contacts_, wall_contacts_, shapes_, costs_,
-                               list_reach_, cell());
-    sort_by_morton_order();
-    phase_times_.migration += watch.lap();
-    distribution_.list_ghosts(grains_);
-    phase_times_.border += watch.lap();
-    require_shapes();
-    update_inertias();
-    update_frames(grains_, shapes_, setup_.density, frames_);
-    update_ghost_frames();
-    phase_times_.frames += watch.lap();
     rebuild_lists();
-    phase_times_.lists += watch.lap();
     return;
   }
   distribution_.start_update(grains_);
   ghosts_are_coming_ = true;
-  phase_times_.border += watch.lap();
+  done_.phases.border += watch.lap();
   update_frames(grains_, shapes_, setup_.density, frames_);
-  phase_times_.frames += watch.lap();
+  done_.phases.frames += watch.lap();
 }
 
-/// Ends an update under way, if there is one.
+/// Migration, ghosts and new lists, for where the grains are now.
+void Simulation::rebuild_lists() {
+  Stopwatch watch;
+  remove_outflow_grains();
+  if (cell() != nullptr) list_skins_.follow_cell(*cell());
+  const double max_skin = distribution_.ranks().max(list_skins_.max_of(grains_));
+  list_reach_ = 2 * (largest_radius_ + max_skin) + longest_gap();
+  container_.require_width(list_reach_, step_);
+  distribution_.redistribute(grains_, interactions_.grains(), interactions_.walls(), shapes_,
+                             costs_, list_reach_, cell());
+  sort_by_morton_order();
+  done_.phases.migration += watch.lap();
+  distribution_.list_ghosts(grains_);
+  done_.phases.border += watch.lap();
+  require_shapes();
+  update_inertias();
+  update_frames(grains_, shapes_, setup_.density, frames_);
+  update_ghost_frames();
+  done_.phases.frames += watch.lap();
+  interactions_.rebuild(
+      distribution_.find_pairs(frames_, list_skins_.skin(), longest_gap(), grains_.size()), frames_,
+      grains_.size(), list_skins_.skin());
+  list_skins_.record(grains_, container_.poses());
+  container_.mark_lists();
+  lists_are_stale_ = false;
+  ++done_.list_rebuilds;
+  const auto owned = static_cast<std::uint32_t>(grains_.size());
+  const auto pairs = interactions_.grains().pairs();
+  shared_pairs_ = static_cast<std::uint64_t>(std::count_if(
+      pairs.begin(), pairs.end(),
+      [owned](const Pair& pair) { return pair.slot_a >= owned || pair.slot_b >= owned; }));
+  costs_ = grain_costs(pairs, grains_.size());
+  cost_ = std::accumulate(costs_.begin(), costs_.end(), 0.0);
+  done_.phases.lists += watch.lap();
+}
+
+/// Waits for the new states of the ghosts, if they are on their way.
 void Simulation::receive_ghosts() {
   if (!ghosts_are_coming_) return;
   Stopwatch watch;
   distribution_.finish_update();
   ghosts_are_coming_ = false;
-  phase_times_.border += watch.lap();
+  done_.phases.border += watch.lap();
   update_ghost_frames();
-  phase_times_.frames += watch.lap();
+  done_.phases.frames += watch.lap();
+}
+
+/// The forces of all contacts. The states of the ghosts arrive while those between owned grains and
+/// on walls are computed.
+void Simulation::compute_forces() {
+  const double dt = setup_.time_step;
+  Stopwatch watch;
+  if (const CellDrive* drive = container_.cell_drive()) {
+    // Pairs stay listed while they are at most twice as far apart as when lists were made.
+    const double farthest = 4 * (largest_radius_ + list_skins_.skin().max);
+    interactions_.set_cell(drive->cell(), drive->since_evaluation(farthest));
+  }
+  container_.mark_evaluation();
+  interactions_.compute_interior(frames_, grains_.size(), dt);
+  done_.phases.grain_contacts += watch.lap();
+  interactions_.compute_walls(owned_frames(), dt);
+  done_.phases.wall_contacts += watch.lap();
+  receive_ghosts();
+  watch = {};
+  interactions_.compute_border(frames_, dt);
+  done_.phases.grain_contacts += watch.lap();
+  if (membrane() != nullptr) {
+    container_.load_membrane(interactions_.compute_membrane(*membrane(), owned_frames(), dt),
+                             membrane_pressure(), distribution_.ranks());
+  }
+  done_.phases.wall_contacts += watch.lap();
+}
+
+void Simulation::sum_loads(std::span<EnergyLedger> ledgers) {
+  contact_loads_.assign(grains_.size(), Load{});
+  interactions_.add_loads(contact_loads_, ledgers);
 }
 
 /// Their springs go with them when lists are made anew.
@@ -182,65 +228,13 @@ void Simulation::update_ghost_frames() {
   });
 }
 
-void Simulation::rebuild_lists() {
-  grain_contacts_.rebuild(
-      distribution_.find_pairs(frames_, adaptive_skin_, longest_gap(), grains_.size()),
-      frames_.size());
-  wall_contacts_.rebuild(owned_frames(), adaptive_skin_);
-  membrane_contacts_.forget();
-  listed_grains_.clear();
-  for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
-    listed_grains_.push_back({grains_.position[slot],
-                              adaptive_skin_.of(grains_.velocity[slot], grains_.position[slot])});
-  }
-  listed_walls_.clear();
-  for (const WallPose& pose : wall_contacts_.poses()) {
-    listed_walls_.push_back({pose.displacement, adaptive_skin_.of(pose.velocity)});
-  }
-  cell_since_lists_ = UpperMat3::identity();
-  lists_are_stale_ = false;
-  ++list_rebuilds_;
-  const auto owned = static_cast<std::uint32_t>(grains_.size());
-  const auto& pairs = grain_contacts_.pairs();
-  shared_pairs_ = static_cast<std::uint64_t>(std::count_if(
-      pairs.begin(), pairs.end(),
-      [owned](const Pair& pair) { return pair.slot_a >= owned || pair.slot_b >= owned; }));
-  costs_ = grain_costs(pairs, grains_.size());
-  cost_ = std::accumulate(costs_.begin(), costs_.end(), 0.0);
-}
-
 void Simulation::count_work() {
   ++done_.steps;
   done_.grain_steps += grains_.size();
   done_.ghost_steps += distribution_.ghosts().size();
-  done_.pair_steps += grain_contacts_.pairs().size();
+  done_.pair_steps += interactions_.grains().pairs().size();
   done_.shared_pair_steps += shared_pairs_;
   done_.work += cost_;
-}
-
-void Simulation::evaluate_contacts() {
-  Stopwatch watch;
-  if (cell_) grain_contacts_.set_cell(*cell_, cell_motion());
-  cell_since_evaluation_ = UpperMat3::identity();
-  // Inner pairs and walls hide the time in which ghosts are on their way.
-  grain_contacts_.evaluate(frames_, setup_.time_step, grains_.size(), [&] {
-    phase_times_.grain_contacts += watch.lap();
-    wall_contacts_.evaluate(owned_frames(), grain_contacts_.displacements(), setup_.time_step);
-    phase_times_.wall_contacts += watch.lap();
-    receive_ghosts();
-    watch = {};
-  });
-  phase_times_.grain_contacts += watch.lap();
-  evaluate_membrane();
-  phase_times_.wall_contacts += watch.lap();
-}
-
-/// The largest of all ranks for the lists about to be made [m].
-double Simulation::max_skin() const {
-  return distribution_.ranks().max(
-      parallel_max(grains_.size(), adaptive_skin_.min, [&](std::size_t slot) {
-        return adaptive_skin_.of(grains_.velocity[slot], grains_.position[slot]);
-      }));
 }
 
 /// Between the faces of a bond: its grains must see each other though they do not touch [m].
@@ -248,50 +242,35 @@ double Simulation::longest_gap() const {
   return setup_.contact.bond ? setup_.contact.bond->longest_gap() : 0;
 }
 
-/// Whether some grain of this rank, or some wall, has moved as far as it was listed for.
-bool Simulation::skin_is_used_up() const {
-  const auto used_up = [](const Listed& listed, const Vec3& place) {
-    return !(squared_norm(place - listed.place) < listed.skin * listed.skin);
-  };
-  const auto poses = poses_at(setup_.walls, driven_walls_, step_, setup_.time_step);
-  for (std::size_t w = 0; w < listed_walls_.size(); ++w) {
-    if (used_up(listed_walls_[w], poses[w].displacement)) return true;
-  }
-  if (cell_) {
-    const CellMotion motion{cell_->center(), cell_since_lists_, list_reach_};
-    const double shared = 0.5 * motion.of_pair();
-    return parallel_max(grains_.size(), 0, [&](std::size_t slot) {
-             const Listed& listed = listed_grains_[slot];
-             const Vec3 own = grains_.position[slot] - motion.carried(listed.place);
-             return norm(own) + shared < listed.skin ? 0.0 : 1.0;
-           }) > 0;
-  }
-  return parallel_max(grains_.size(), 0, [&](std::size_t slot) {
-           return used_up(listed_grains_[slot], grains_.position[slot]) ? 1.0 : 0.0;
-         }) > 0;
+/// Whether some grain of this rank, or some wall, has moved through its skin.
+bool Simulation::skins_are_used_up() const {
+  const auto poses = container_.poses_at_step(step_);
+  if (container_.cell_drive() == nullptr) return list_skins_.used_up(grains_, poses, nullptr);
+  const CellMotion motion = container_.cell_drive()->since_lists(list_reach_);
+  return list_skins_.used_up(grains_, poses, &motion);
 }
 
-/// One small reduction per step: do lists serve one more step, and is everybody still well?
+/// One small reduction per step: do lists serve one more step, and is every state finite?
 void Simulation::reduce_step_status() {
   constexpr double fine = 0;
   constexpr double stale = 1;
   constexpr double failed = 2;
-  double news = skin_is_used_up() ? stale : fine;
-  news = std::max(news, parallel_max(grains_.size(), fine, [&](std::size_t slot) {
-                    if (!motion_is_finite(slot)) return failed;
-                    return is_out(slot) ? stale : fine;
-                  }));
-  if (membrane() != nullptr && !membrane_->is_finite()) news = failed;
-  news = distribution_.ranks().max(news);
-  lists_are_stale_ = news >= stale;
-  if (news >= failed) fail_on_motion();
+  double status = skins_are_used_up() ? stale : fine;
+  status = std::max(status, parallel_max(grains_.size(), fine, [&](std::size_t slot) {
+                      if (!motion_is_finite(slot)) return failed;
+                      return is_out(slot) ? stale : fine;
+                    }));
+  if (membrane() != nullptr && !membrane()->is_finite()) status = failed;
+  status = distribution_.ranks().max(status);
+  lists_are_stale_ = status >= stale;
+  if (status >= failed) fail_on_motion();
 }
 
-void Simulation::sum_loads(std::span<EnergyLedger> ledgers) {
-  contact_loads_.assign(grains_.size(), Load{});
-  grain_contacts_.add_loads(contact_loads_, ledgers);
-  wall_contacts_.add_loads(contact_loads_, ledgers);
-  if (membrane() != nullptr) membrane_contacts_.add_loads(contact_loads_, ledgers);
+/// Sets the rates of the cell and the speeds of the walls from the forces at this step.
+void Simulation::drive_container() {
+  const StageSetup* now = stage();
+  container_.drive_cell(now, [this] { return cell_reaction(); });
+  if (now != nullptr) container_.drive_walls(*now, [this] { return wall_reactions(); });
 }
 
 /// Acceleration by body forces other than gravity [m/s^2].
@@ -301,19 +280,21 @@ Vec3 Simulation::push_besides_gravity(std::size_t slot) const {
 
 Load Simulation::total_load(std::size_t slot, const Vec3& push) const {
   Load load = contact_loads_[slot];
-  load.force += inertias_[slot].mass * (setup_.body_force.gravity + push);
+  load.force += inertias_[slot].mass * (active_.gravity + push);
   return load;
 }
 
 void Simulation::advance_grains() {
   const double dt = setup_.time_step;
+  const CellDrive* const cell = container_.cell_drive();
   parallel_for(grains_.size(), 64, [&](std::size_t slot) {
     const Vec3 push = push_besides_gravity(slot);
     const Load load = total_load(slot, push);
     const Inertia& body = inertias_[slot];
     const Mat3& rotation = frames_[slot].rotation;
+    const Vec3 position = grains_.position[slot];
     Kick before = velocities_of(grains_, slot);
-    before.velocity = velocity_in_cell(slot);
+    before.velocity = container_.relative_velocity(position, grains_.velocity[slot]);
     const Vec3 velocity_before = before.velocity;
     const Vec3 spin_before = before.angular_velocity_body;
     EnergyLedger& ledger = grains_.ledger[slot];
@@ -324,25 +305,20 @@ void Simulation::advance_grains() {
       drift(grains_, slot, {grains_.velocity[slot], spin_before, {}}, dt);
       return;
     }
-    Kick half = kick(before, rotation, load, body, setup_.damping, dt);
+    Kick half = kick(before, rotation, load, body, active_.damping, dt);
     const Vec3 velocity = 0.5 * (velocity_before + half.velocity);
     const Vec3 spin = 0.5 * (spin_before + half.angular_velocity_body);
     ledger.damping +=
-        setup_.damping * dt *
+        active_.damping * dt *
         (body.mass * squared_norm(velocity) + dot(hadamard(body.moments, spin), spin));
     ledger.body_work += body.mass * dot(push, velocity) * dt;
-    if (!cell_) return drift(grains_, slot, half, dt);
-    const Vec3 alone = half.velocity;
-    const Vec3 along = cell_gradient_ * (grains_.position[slot] - cell_->center());
-    half.velocity += along;
+    if (cell == nullptr) return drift(grains_, slot, half, dt);
+    const Vec3 relative = half.velocity;
+    half.velocity += cell->drift_velocity(position);
     drift(grains_, slot, half, dt);
-    ledger.wall_work += work_of_cell_on(slot, alone, along);
+    ledger.wall_work += cell->work_on(body.mass, active_.gravity, position, grains_.position[slot],
+                                      relative, grains_.velocity[slot], dt);
   });
-}
-
-void Simulation::commit_springs() {
-  grain_contacts_.commit();
-  wall_contacts_.commit();
 }
 
 bool Simulation::is_out(std::size_t slot) const {
