@@ -20,8 +20,7 @@ constexpr double ns_per_second = 1e9;
 /// The parts of PhaseTimes that a process of its own has.
 constexpr std::array phases{&PhaseTimes::frames,         &PhaseTimes::lists,
                             &PhaseTimes::grain_contacts, &PhaseTimes::wall_contacts,
-                            &PhaseTimes::loads,          &PhaseTimes::motion,
-                            &PhaseTimes::agreement};
+                            &PhaseTimes::motion,         &PhaseTimes::agreement};
 
 /// Seconds of this process: see measure().
 double now(int threads) {

@@ -39,7 +39,6 @@ constexpr std::array phases{Phase{"frames", &PhaseTimes::frames},
                             Phase{"lists", &PhaseTimes::lists},
                             Phase{"grain_contacts", &PhaseTimes::grain_contacts},
                             Phase{"wall_contacts", &PhaseTimes::wall_contacts},
-                            Phase{"loads", &PhaseTimes::loads},
                             Phase{"motion", &PhaseTimes::motion},
                             Phase{"agreement", &PhaseTimes::agreement}};
 

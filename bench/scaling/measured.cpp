@@ -72,7 +72,7 @@ Ratio over_ranks(const Communicator& ranks, double value) {
 
 std::string measured_columns() {
   return "workload,grains,ranks,threads,decomposition,steps,step_us,grain_contacts_us,walls_us,"
-         "frames_loads_motion_us,lists_us,border_us,migration_us,agreement_us,exchange_alone_us,"
+         "frames_motion_us,lists_us,border_us,migration_us,agreement_us,exchange_alone_us,"
          "list_rebuilds,migrated_grains,most_grains,most_ghosts,most_bytes_per_step,"
          "most_messages_per_step,pairs_ratio,tested_nodes_ratio";
 }
@@ -107,7 +107,7 @@ std::string measure(const MeasuredRun& run, const Communicator& ranks) {
   using P = PhaseTimes;
   const double contact_time = phase(&P::grain_contacts);
   const double wall_time = phase(&P::wall_contacts);
-  const double motion_time = phase(&P::frames) + phase(&P::loads) + phase(&P::motion);
+  const double motion_time = phase(&P::frames) + phase(&P::motion);
   const double list_time = phase(&P::lists);
   const double border_time = phase(&P::border);
   const double migration_time = phase(&P::migration);

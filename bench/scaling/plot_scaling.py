@@ -144,7 +144,7 @@ def fastest(rows):
 
 
 PHASES = (("grain_contacts_us", "grain contacts"), ("walls_us", "walls"),
-          ("frames_loads_motion_us", "frames, loads, motion"), ("lists_us", "pair lists"),
+          ("frames_motion_us", "frames, motion"), ("lists_us", "pair lists"),
           ("border_us", "border"), ("migration_us", "migration"), ("agreement_us", "agreement"))
 
 

@@ -251,13 +251,14 @@ std::vector<MembraneTouch> MembraneContacts::touches() const {
   return all;
 }
 
-void MembraneContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const {
-  for (const MembraneForce& force : forces_) {
-    if (force.touching == 0) continue;
-    loads[force.slot] += Load{force.force, force.moment};
-    ledgers[force.slot].friction += force.friction;
-    ledgers[force.slot].dashpot += force.dashpot;
-  }
+void MembraneContacts::add_load(std::size_t slot, Load& load, EnergyLedger& ledger) const {
+  const auto force = std::lower_bound(
+      forces_.begin(), forces_.end(), slot,
+      [](const MembraneForce& of, std::size_t wanted) { return of.slot < wanted; });
+  if (force == forces_.end() || force->slot != slot || force->touching == 0) return;
+  load += Load{force->force, force->moment};
+  ledger.friction += force->friction;
+  ledger.dashpot += force->dashpot;
 }
 
 }  // namespace reckon

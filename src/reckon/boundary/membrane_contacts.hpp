@@ -40,7 +40,8 @@ class MembraneContacts {
   /// `displacements` has followed these frames, slot by slot; the plain engine does not look at it.
   void evaluate(const Membrane& membrane, std::span<const GrainFrame> frames,
                 const DisplacementBound& displacements, double time_step);
-  void add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const;
+  /// Adds the force on one grain, and its losses.
+  void add_load(std::size_t slot, Load& load, EnergyLedger& ledger) const;
 
   /// Of this rank, as of the last evaluate(); to be shared with all ranks.
   [[nodiscard]] std::vector<MembraneTouch> touches() const;

@@ -211,16 +211,14 @@ void WallContacts::evaluate(std::span<const GrainFrame> frames,
   for (Scratch& mine : scratch_) counters_ += std::exchange(mine.counters, {});
 }
 
-void WallContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const {
-  parallel_for(loads.size(), 256, [&](std::size_t slot) {
-    for (std::uint32_t c = first_of_slot_[slot]; c < first_of_slot_[slot + 1]; ++c) {
-      const WallForce& wall = forces_[c];
-      if (wall.touching > 0) loads[slot] += Load{wall.force, wall.moment};
-      if (wall.friction != 0) ledgers[slot].friction += wall.friction;
-      if (wall.dashpot != 0) ledgers[slot].dashpot += wall.dashpot;
-      if (wall.work != 0) ledgers[slot].wall_work += wall.work;
-    }
-  });
+void WallContacts::add_load(std::size_t slot, Load& load, EnergyLedger& ledger) const {
+  for (std::uint32_t c = first_of_slot_[slot]; c < first_of_slot_[slot + 1]; ++c) {
+    const WallForce& wall = forces_[c];
+    if (wall.touching > 0) load += Load{wall.force, wall.moment};
+    if (wall.friction != 0) ledger.friction += wall.friction;
+    if (wall.dashpot != 0) ledger.dashpot += wall.dashpot;
+    if (wall.work != 0) ledger.wall_work += wall.work;
+  }
 }
 
 void WallContacts::commit() {

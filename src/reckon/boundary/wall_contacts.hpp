@@ -44,9 +44,8 @@ struct WallSprings {
   friend bool operator==(const WallSprings&, const WallSprings&) = default;
 };
 
-/// Contacts between grains and walls. Used like GrainContacts; loads are to be added after those of
-/// the grains, a grain's walls in the order of the scene. Candidates are skipped as pairs of grains
-/// are.
+/// Contacts between grains and walls. Used like GrainContacts; the load on a grain is to be added
+/// after that of the grains. Candidates are skipped as pairs of grains are.
 class WallContacts {
  public:
   explicit WallContacts(std::vector<Wall> walls, ContactEngine engine = ContactEngine::near,
@@ -69,7 +68,8 @@ class WallContacts {
   /// `displacements` has followed these frames, slot by slot; the plain engine does not look at it.
   void evaluate(std::span<const GrainFrame> frames, const DisplacementBound& displacements,
                 double time_step);
-  void add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const;
+  /// Adds the forces of all walls on one grain, in the order of the scene, and its losses.
+  void add_load(std::size_t slot, Load& load, EnergyLedger& ledger) const;
   void commit();
 
   [[nodiscard]] std::span<const Wall> walls() const { return walls_; }

@@ -378,24 +378,24 @@ void GrainContacts::forget_near_lists() {
   for (NearPair& pair : near_) pair = {};
 }
 
-void GrainContacts::add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const {
-  parallel_for(loads.size(), 64, [&](std::size_t slot) {
-    for (const auto& entry : pairs_of_grain_.of(slot)) {
-      if (acts_[entry.pair] == 0) continue;
-      const PairForce& pair = forces_[entry.pair];
-      // A pair that is listed but does not touch adds nothing, not even a signed zero: the answer
-      // must not depend on the list.
-      if (pair.holds()) {
-        loads[slot] += entry.is_a ? Load{pair.force_on_a, pair.moment_a}
-                                  : Load{-pair.force_on_a, pair.moment_b};
-      }
-      if (entry.is_a) {
-        if (pair.friction != 0) ledgers[slot].friction += pair.friction;
-        if (pair.dashpot != 0) ledgers[slot].dashpot += pair.dashpot;
-        if (pair.fracture != 0) ledgers[slot].fracture += pair.fracture;
-      }
+Load GrainContacts::load_on(std::size_t slot, EnergyLedger& ledger) const {
+  Load load;
+  for (const auto& entry : pairs_of_grain_.of(slot)) {
+    if (acts_[entry.pair] == 0) continue;
+    const PairForce& pair = forces_[entry.pair];
+    // A pair that is listed but does not touch adds nothing, not even a signed zero: the answer
+    // must not depend on the list.
+    if (pair.holds()) {
+      load +=
+          entry.is_a ? Load{pair.force_on_a, pair.moment_a} : Load{-pair.force_on_a, pair.moment_b};
     }
-  });
+    if (entry.is_a) {
+      if (pair.friction != 0) ledger.friction += pair.friction;
+      if (pair.dashpot != 0) ledger.dashpot += pair.dashpot;
+      if (pair.fracture != 0) ledger.fracture += pair.fracture;
+    }
+  }
+  return load;
 }
 
 void GrainContacts::commit() {

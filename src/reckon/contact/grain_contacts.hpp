@@ -58,8 +58,8 @@ struct BrokenBonds {
 
 /// Contacts between grains: the list of pairs, their springs and their forces.
 ///
-/// A step is evaluate(), then add_loads(), then commit(). Without commit() the springs stay those
-/// of the last step, so forces can be looked at without moving on.
+/// A step is evaluate(), then load_on() for every grain, then commit(). Without commit() the
+/// springs stay those of the last step, so forces can be looked at without moving on.
 ///
 /// With ContactEngine::near a pair is skipped while nothing can touch and it holds no springs:
 ///
@@ -91,9 +91,9 @@ class GrainContacts {
   void evaluate_interior(std::span<const GrainFrame> frames, double time_step, std::size_t owned);
   void evaluate_border(std::span<const GrainFrame> frames, double time_step);
 
-  /// Adds every pair's force to its grains, each grain's pairs in the order of the partners' ids,
-  /// and the pair's losses to its grain of lower id. Arrays are per slot.
-  void add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const;
+  /// The sum of all pairs of one grain, in the order of the partners' ids. Adds the losses of the
+  /// pairs in which it has the lower id to its ledger.
+  [[nodiscard]] Load load_on(std::size_t slot, EnergyLedger& ledger) const;
 
   /// The springs of the last evaluate() become the memory of the next, and bonds break.
   void commit();

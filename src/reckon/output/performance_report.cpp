@@ -20,19 +20,19 @@ struct Phase {
   double (*seconds)(const RankPerformance&);
 };
 
-constexpr std::array phases{
-    Phase{"force", "pairs, touching nodes and their forces",
-          [](const RankPerformance& r) {
-            return r.phases.lists + r.phases.grain_contacts + r.phases.wall_contacts;
-          }},
-    Phase{"border", "listing ghosts and waiting for their states",
-          [](const RankPerformance& r) { return r.phases.border; }},
-    Phase{"migrate", "bringing grains to their owners",
-          [](const RankPerformance& r) { return r.phases.migration; }},
-    Phase{"update", "sums, motion, and waiting for all ranks to agree",
-          [](const RankPerformance& r) {
-            return r.phases.frames + r.phases.loads + r.phases.motion + r.phases.agreement;
-          }}};
+constexpr std::array phases{Phase{"force", "pairs, touching nodes and their forces",
+                                  [](const RankPerformance& r) {
+                                    return r.phases.lists + r.phases.grain_contacts +
+                                           r.phases.wall_contacts;
+                                  }},
+                            Phase{"border", "listing ghosts and waiting for their states",
+                                  [](const RankPerformance& r) { return r.phases.border; }},
+                            Phase{"migrate", "bringing grains to their owners",
+                                  [](const RankPerformance& r) { return r.phases.migration; }},
+                            Phase{"update", "sums, motion, and waiting for all ranks to agree",
+                                  [](const RankPerformance& r) {
+                                    return r.phases.frames + r.phases.motion + r.phases.agreement;
+                                  }}};
 
 /// Over the ranks.
 struct Spread {
@@ -148,7 +148,6 @@ std::string performance_json(const PerformanceOfRun& run) {
     json.value("lists", rank.phases.lists);
     json.value("grain_contacts", rank.phases.grain_contacts);
     json.value("wall_contacts", rank.phases.wall_contacts);
-    json.value("loads", rank.phases.loads);
     json.value("motion", rank.phases.motion);
     json.value("agreement", rank.phases.agreement);
     json.end();

@@ -59,8 +59,9 @@ class CellDrive {
   [[nodiscard]] CellMotion since_evaluation(double farthest) const {
     return {cell_.center(), since_evaluation_, farthest};
   }
-  [[nodiscard]] CellMotion since_lists(double farthest) const {
-    return {cell_.center(), since_lists_, farthest};
+  /// Until the end of the step to come.
+  [[nodiscard]] CellMotion next_since_lists(double farthest) const {
+    return {cell_.center(), deformation_ * since_lists_, farthest};
   }
   void mark_evaluation() { since_evaluation_ = UpperMat3::identity(); }
   void mark_lists() { since_lists_ = UpperMat3::identity(); }

@@ -27,10 +27,4 @@ void Interactions::rebuild(std::vector<Pair> pairs, std::span<const GrainFrame> 
   membrane_.forget();
 }
 
-void Interactions::add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const {
-  grains_.add_loads(loads, ledgers);
-  walls_.add_loads(loads, ledgers);
-  membrane_.add_loads(loads, ledgers);
-}
-
 }  // namespace reckon

@@ -37,7 +37,7 @@ struct ContactView {
 ///
 ///   compute_interior()                     while the states of ghosts are on their way
 ///   compute_border()                       with these states
-///   add_loads()   commit()
+///   load_on() for every grain, then commit()
 class Interactions {
  public:
   Interactions(const SimulationSetup& setup, const SimulationState& state);
@@ -75,9 +75,15 @@ class Interactions {
     return membrane_.touches();
   }
 
-  /// Adds all forces and losses to the owned grains: pairs in the order of the partners' ids, then
-  /// walls in the order of the scene, then the membrane.
-  void add_loads(std::span<Load> loads, std::span<EnergyLedger> ledgers) const;
+  /// The sum of all contacts of one owned grain: pairs in the order of the partners' ids, then
+  /// walls in the order of the scene, then the membrane. Adds the losses to the ledger of the
+  /// grain.
+  [[nodiscard]] Load load_on(std::size_t slot, EnergyLedger& ledger) const {
+    Load load = grains_.load_on(slot, ledger);
+    walls_.add_load(slot, load, ledger);
+    membrane_.add_load(slot, load, ledger);
+    return load;
+  }
   /// The springs of this step become the history of the next.
   void commit() {
     grains_.commit();

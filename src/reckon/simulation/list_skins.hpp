@@ -29,16 +29,28 @@ class ListSkins {
 
   /// Lists are made now.
   void record(const Grains& grains, std::span<const WallPose> poses);
-  /// Whether a grain or a wall has moved through its skin. `cell_motion`: since record(), in a
-  /// periodic cell.
-  [[nodiscard]] bool used_up(const Grains& grains, std::span<const WallPose> poses,
-                             const CellMotion* cell_motion) const;
+  /// Whether some wall has moved through its skin.
+  [[nodiscard]] bool used_up_by_walls(std::span<const WallPose> poses) const;
+  /// Whether the grain has moved through its skin. `cell_motion`: since record(), in a periodic
+  /// cell.
+  [[nodiscard]] bool used_up_by(std::size_t slot, const Vec3& position,
+                                const CellMotion* cell_motion) const {
+    const Listed& listed = grains_[slot];
+    // Not a number: used up.
+    if (cell_motion == nullptr) return !is_within(listed, position);
+    const double own = norm(position - cell_motion->carried(listed.place));
+    return !(own + 0.5 * cell_motion->of_pair() < listed.skin);
+  }
 
  private:
   struct Listed {
     Vec3 place;      // of a grain, or the displacement of a wall [m]
     double skin{0};  // [m]
   };
+  [[nodiscard]] static bool is_within(const Listed& listed, const Vec3& place) {
+    return squared_norm(place - listed.place) < listed.skin * listed.skin;
+  }
+
   AdaptiveSkin skin_;
   std::vector<Listed> grains_;
   std::vector<Listed> walls_;

@@ -87,7 +87,6 @@ Measurement Simulation::measure() {
   update();
   compute_forces();
   std::vector<EnergyLedger> ledgers = grains_.ledger;  // with the losses up to this very step
-  sum_loads(ledgers);
 
   const auto diameter = [&](std::size_t slot) {
     return portable::cbrt(6 / std::numbers::pi * frames_[slot].shape->mass.volume);
@@ -102,7 +101,7 @@ Measurement Simulation::measure() {
   Sums sums;
   for (std::size_t slot = 0; slot < grains_.size(); ++slot) {
     const Inertia& body = inertias_[slot];
-    const Load load = total_load(slot, push_besides_gravity(slot));
+    const Load load = total_load(slot, push_besides_gravity(slot), ledgers[slot]);
     Vec3 velocity = container_.relative_velocity(grains_.position[slot], grains_.velocity[slot]);
     Vec3 spin = grains_.angular_velocity_body[slot];
     if (grains_.prescribed[slot] == 0) {

@@ -12,12 +12,11 @@ struct PhaseTimes {
   double lists{0};           ///< listing pairs
   double grain_contacts{0};  ///< finding touching nodes and their forces
   double wall_contacts{0};
-  double loads{0};      ///< summing forces per grain
-  double motion{0};     ///< moving grains, committing springs
+  double motion{0};     ///< summing forces per grain, moving grains, committing springs
   double agreement{0};  ///< looking whether lists still serve, with all ranks
 
   [[nodiscard]] double total() const {
-    return frames + border + migration + lists + grain_contacts + wall_contacts + loads + motion +
+    return frames + border + migration + lists + grain_contacts + wall_contacts + motion +
            agreement;
   }
 };

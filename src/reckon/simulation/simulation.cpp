@@ -60,16 +60,14 @@ void Simulation::step() {
   update();
   compute_forces();
   Stopwatch watch;
-  sum_loads(grains_.ledger);
-  done_.phases.loads += watch.lap();
   drive_container();
-  advance_grains();
+  const GrainStatus grains = advance_grains();
   container_.advance();
   interactions_.commit();
   ++step_;
   count_work();
   done_.phases.motion += watch.lap();
-  reduce_step_status();
+  reduce_step_status(grains);
   done_.phases.agreement += watch.lap();
 }
 
@@ -87,8 +85,6 @@ void Simulation::update() {
   distribution_.start_update(grains_);
   ghosts_are_coming_ = true;
   done_.phases.border += watch.lap();
-  update_frames(grains_, shapes_, setup_.density, frames_);
-  done_.phases.frames += watch.lap();
 }
 
 /// Migration, ghosts and new lists, for where the grains are now.
@@ -164,11 +160,6 @@ void Simulation::compute_forces() {
   done_.phases.wall_contacts += watch.lap();
 }
 
-void Simulation::sum_loads(std::span<EnergyLedger> ledgers) {
-  contact_loads_.assign(grains_.size(), Load{});
-  interactions_.add_loads(contact_loads_, ledgers);
-}
-
 /// Their springs go with them when lists are made anew.
 void Simulation::remove_outflow_grains() {
   if (setup_.outflows.empty()) return;
@@ -242,28 +233,15 @@ double Simulation::longest_gap() const {
   return setup_.contact.bond ? setup_.contact.bond->longest_gap() : 0;
 }
 
-/// Whether some grain of this rank, or some wall, has moved through its skin.
-bool Simulation::skins_are_used_up() const {
-  const auto poses = container_.poses_at_step(step_);
-  if (container_.cell_drive() == nullptr) return list_skins_.used_up(grains_, poses, nullptr);
-  const CellMotion motion = container_.cell_drive()->since_lists(list_reach_);
-  return list_skins_.used_up(grains_, poses, &motion);
-}
-
 /// One small reduction per step: do lists serve one more step, and is every state finite?
-void Simulation::reduce_step_status() {
-  constexpr double fine = 0;
-  constexpr double stale = 1;
-  constexpr double failed = 2;
-  double status = skins_are_used_up() ? stale : fine;
-  status = std::max(status, parallel_max(grains_.size(), fine, [&](std::size_t slot) {
-                      if (!motion_is_finite(slot)) return failed;
-                      return is_out(slot) ? stale : fine;
-                    }));
-  if (membrane() != nullptr && !membrane()->is_finite()) status = failed;
-  status = distribution_.ranks().max(status);
-  lists_are_stale_ = status >= stale;
-  if (status >= failed) fail_on_motion();
+void Simulation::reduce_step_status(GrainStatus grains) {
+  GrainStatus status = grains;
+  const auto worsen = [&status](GrainStatus other) { status = std::max(status, other); };
+  if (list_skins_.used_up_by_walls(container_.poses_at_step(step_))) worsen(GrainStatus::stale);
+  if (membrane() != nullptr && !membrane()->is_finite()) worsen(GrainStatus::failed);
+  const double worst = distribution_.ranks().max(static_cast<double>(status));
+  lists_are_stale_ = worst >= static_cast<double>(GrainStatus::stale);
+  if (worst >= static_cast<double>(GrainStatus::failed)) fail_on_motion();
 }
 
 /// Sets the rates of the cell and the speeds of the walls from the forces at this step.
@@ -278,47 +256,71 @@ Vec3 Simulation::push_besides_gravity(std::size_t slot) const {
   return setup_.body_force.acceleration_besides_gravity(grains_.id[slot], step_);
 }
 
-Load Simulation::total_load(std::size_t slot, const Vec3& push) const {
-  Load load = contact_loads_[slot];
+Load Simulation::total_load(std::size_t slot, const Vec3& push, EnergyLedger& ledger) const {
+  Load load = interactions_.load_on(slot, ledger);
   load.force += inertias_[slot].mass * (active_.gravity + push);
   return load;
 }
 
-void Simulation::advance_grains() {
-  const double dt = setup_.time_step;
-  const CellDrive* const cell = container_.cell_drive();
+/// One loop over the grains: each sums its forces, moves, and gets its frame of the next step.
+/// Returns the worst status.
+GrainStatus Simulation::advance_grains() {
+  std::optional<CellMotion> cell_motion;
+  if (const CellDrive* cell = container_.cell_drive()) {
+    cell_motion = cell->next_since_lists(list_reach_);
+  }
+  std::vector<GrainStatus> worst(static_cast<std::size_t>(thread_count()), GrainStatus::fine);
   parallel_for(grains_.size(), 64, [&](std::size_t slot) {
-    const Vec3 push = push_besides_gravity(slot);
-    const Load load = total_load(slot, push);
-    const Inertia& body = inertias_[slot];
-    const Mat3& rotation = frames_[slot].rotation;
-    const Vec3 position = grains_.position[slot];
-    Kick before = velocities_of(grains_, slot);
-    before.velocity = container_.relative_velocity(position, grains_.velocity[slot]);
-    const Vec3 velocity_before = before.velocity;
-    const Vec3 spin_before = before.angular_velocity_body;
-    EnergyLedger& ledger = grains_.ledger[slot];
-    if (grains_.prescribed[slot] != 0) {
-      // What holds the grain to its course supplies the opposite of its load.
-      const Vec3 spin_world = rotation * spin_before;
-      ledger.wall_work -= (dot(load.force, velocity_before) + dot(load.moment, spin_world)) * dt;
-      drift(grains_, slot, {grains_.velocity[slot], spin_before, {}}, dt);
-      return;
-    }
-    Kick half = kick(before, rotation, load, body, active_.damping, dt);
-    const Vec3 velocity = 0.5 * (velocity_before + half.velocity);
-    const Vec3 spin = 0.5 * (spin_before + half.angular_velocity_body);
-    ledger.damping +=
-        active_.damping * dt *
-        (body.mass * squared_norm(velocity) + dot(hadamard(body.moments, spin), spin));
-    ledger.body_work += body.mass * dot(push, velocity) * dt;
-    if (cell == nullptr) return drift(grains_, slot, half, dt);
-    const Vec3 relative = half.velocity;
-    half.velocity += cell->drift_velocity(position);
-    drift(grains_, slot, half, dt);
-    ledger.wall_work += cell->work_on(body.mass, active_.gravity, position, grains_.position[slot],
-                                      relative, grains_.velocity[slot], dt);
+    advance_grain(slot);
+    frames_[slot] =
+        frame_of(grains_.id[slot], shapes_[grains_.shape[slot].get()], grains_.position[slot],
+                 grains_.orientation[slot], grains_.velocity[slot],
+                 grains_.angular_velocity_body[slot], setup_.density);
+    GrainStatus& status = worst[static_cast<std::size_t>(thread_index())];
+    status = std::max(status, status_of(slot, cell_motion ? &*cell_motion : nullptr));
   });
+  return *std::max_element(worst.begin(), worst.end());
+}
+
+void Simulation::advance_grain(std::size_t slot) {
+  const double dt = setup_.time_step;
+  const Vec3 push = push_besides_gravity(slot);
+  EnergyLedger& ledger = grains_.ledger[slot];
+  const Load load = total_load(slot, push, ledger);
+  const Inertia& body = inertias_[slot];
+  const Mat3& rotation = frames_[slot].rotation;
+  const Vec3 position = grains_.position[slot];
+  Kick before = velocities_of(grains_, slot);
+  before.velocity = container_.relative_velocity(position, grains_.velocity[slot]);
+  const Vec3 velocity_before = before.velocity;
+  const Vec3 spin_before = before.angular_velocity_body;
+  if (grains_.prescribed[slot] != 0) {
+    // What holds the grain to its course supplies the opposite of its load.
+    const Vec3 spin_world = rotation * spin_before;
+    ledger.wall_work -= (dot(load.force, velocity_before) + dot(load.moment, spin_world)) * dt;
+    drift(grains_, slot, {grains_.velocity[slot], spin_before, {}}, dt);
+    return;
+  }
+  Kick half = kick(before, rotation, load, body, active_.damping, dt);
+  const Vec3 velocity = 0.5 * (velocity_before + half.velocity);
+  const Vec3 spin = 0.5 * (spin_before + half.angular_velocity_body);
+  ledger.damping += active_.damping * dt *
+                    (body.mass * squared_norm(velocity) + dot(hadamard(body.moments, spin), spin));
+  ledger.body_work += body.mass * dot(push, velocity) * dt;
+  const CellDrive* const cell = container_.cell_drive();
+  if (cell == nullptr) return drift(grains_, slot, half, dt);
+  const Vec3 relative = half.velocity;
+  half.velocity += cell->drift_velocity(position);
+  drift(grains_, slot, half, dt);
+  ledger.wall_work += cell->work_on(body.mass, active_.gravity, position, grains_.position[slot],
+                                    relative, grains_.velocity[slot], dt);
+}
+
+GrainStatus Simulation::status_of(std::size_t slot, const CellMotion* cell_motion) const {
+  if (!motion_is_finite(slot)) return GrainStatus::failed;
+  const bool stale =
+      is_out(slot) || list_skins_.used_up_by(slot, grains_.position[slot], cell_motion);
+  return stale ? GrainStatus::stale : GrainStatus::fine;
 }
 
 bool Simulation::is_out(std::size_t slot) const {

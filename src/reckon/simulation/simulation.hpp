@@ -50,6 +50,13 @@ struct ActiveStage {
   double damping{0};  ///< global damping xi [1/s]
 };
 
+/// A grain after a step, from good to bad.
+enum class GrainStatus {
+  fine,   ///< its lists serve one more step
+  stale,  ///< lists must be made again
+  failed  ///< its motion is no longer a number
+};
+
 /// The level-set discrete element method. `step()` is the paper's algorithm on one screen.
 class Simulation {
  public:
@@ -144,11 +151,11 @@ class Simulation {
   void rebuild_lists();
   void receive_ghosts();
   void compute_forces();
-  void sum_loads(std::span<EnergyLedger> ledgers);
   void drive_container();
-  void advance_grains();
+  [[nodiscard]] GrainStatus advance_grains();
+  void advance_grain(std::size_t slot);
   void count_work();
-  void reduce_step_status();
+  void reduce_step_status(GrainStatus grains);
 
   void restore_stages(const SimulationState& state);
   void apply_stage();
@@ -160,13 +167,13 @@ class Simulation {
     return std::span{frames_}.first(grains_.size());
   }
   [[nodiscard]] double longest_gap() const;
-  [[nodiscard]] bool skins_are_used_up() const;
+  [[nodiscard]] GrainStatus status_of(std::size_t slot, const CellMotion* cell_motion) const;
   [[nodiscard]] bool is_out(std::size_t slot) const;
   [[nodiscard]] bool is_outside(std::size_t slot) const;
   [[nodiscard]] bool motion_is_finite(std::size_t slot) const;
   [[noreturn]] void fail_on_motion() const;
   [[nodiscard]] Vec3 push_besides_gravity(std::size_t slot) const;
-  [[nodiscard]] Load total_load(std::size_t slot, const Vec3& push) const;
+  [[nodiscard]] Load total_load(std::size_t slot, const Vec3& push, EnergyLedger& ledger) const;
 
   SimulationSetup setup_;              // constant, except that shapes are read when first needed
   std::span<const ShapeView> shapes_;  // views of setup_.shapes
@@ -180,7 +187,6 @@ class Simulation {
   Grains grains_;
   std::vector<GrainFrame> frames_;       // owned grains, then ghosts
   std::vector<Inertia> inertias_;        // of the owned grains
-  std::vector<Load> contact_loads_;      // likewise
   std::vector<DepartedGrain> departed_;  // on this rank
   Container container_;
   Interactions interactions_;

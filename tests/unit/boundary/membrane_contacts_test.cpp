@@ -93,10 +93,10 @@ TEST_F(BallInMembrane, TakesTheOppositeOfWhatItGives) {
   EXPECT_LT(norm(on_grain.force - force), 1e-12 * norm(force));
   EXPECT_LT(norm(on_grain.moment - moment), 1e-10 * norm(force));
   EXPECT_LT(on_grain.force.z, 0);  // friction holds it back
-  std::vector<Load> loads(1);
-  std::vector<EnergyLedger> ledgers(1);
-  contacts.add_loads(loads, ledgers);
-  EXPECT_EQ(loads[0].force, on_grain.force);
+  Load load;
+  EnergyLedger ledger;
+  contacts.add_load(0, load, ledger);
+  EXPECT_EQ(load.force, on_grain.force);
 }
 
 /// A walk through the membrane and back out of it, with lists kept and made anew on the way.

@@ -176,13 +176,15 @@ TEST(GrainContacts, ThreadsDoNotChangeTheLoads) {
     set_thread_count(threads);
     GrainContacts contacts{{AreaLaw{1e6, 1e6, 0.2}, 0.5, MasterRule::lower_id}};
     testing::list_pairs(contacts, frames, 0.1);
-    std::vector<EnergyLedger> ledgers(grains.size());
     for (int step = 0; step < 3; ++step) {
       contacts.evaluate(frames, 1e-4);
       contacts.commit();
     }
-    loads.emplace_back(grains.size());
-    contacts.add_loads(loads.back(), ledgers);
+    loads.emplace_back();
+    for (std::size_t slot = 0; slot < grains.size(); ++slot) {
+      EnergyLedger ledger;
+      loads.back().push_back(contacts.load_on(slot, ledger));
+    }
   }
   set_thread_count(before);
   for (std::size_t slot = 0; slot < grains.size(); ++slot) {
