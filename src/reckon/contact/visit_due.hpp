@@ -20,8 +20,11 @@ namespace reckon {
 template <class Counts, class PathLength, class Prefetch, class Evaluate, class Finish>
 void visit_due(std::span<const double> next_check, Counts&& counts, PathLength&& path_length,
                Prefetch&& prefetch, Evaluate&& evaluate, Finish&& finish) {
-  constexpr std::size_t stretch = 128;
   constexpr std::size_t ahead = 3;
+  constexpr std::size_t shortest = 16;
+  constexpr std::size_t longest = 128;  // long stretches fill vectors better
+  const std::size_t even = next_check.size() / (8 * static_cast<std::size_t>(thread_count()));
+  const std::size_t stretch = std::clamp(even, shortest, longest);
   struct Due {
     std::size_t k;
     double path_length;
@@ -29,7 +32,7 @@ void visit_due(std::span<const double> next_check, Counts&& counts, PathLength&&
   parallel_for((next_check.size() + stretch - 1) / stretch, 1, [&](std::size_t task) {
     const std::size_t first = task * stretch;
     const std::size_t last = std::min(first + stretch, next_check.size());
-    std::array<Due, stretch> due;
+    std::array<Due, longest> due;
     std::size_t count = 0;
     for (std::size_t k = first; k < last; ++k) {
       if (!counts(k)) continue;

@@ -269,17 +269,22 @@ GrainStatus Simulation::advance_grains() {
   if (const CellDrive* cell = container_.cell_drive()) {
     cell_motion = cell->next_since_lists(list_reach_);
   }
-  std::vector<GrainStatus> worst(static_cast<std::size_t>(thread_count()), GrainStatus::fine);
+  struct alignas(64) Worst {  // a cache line for each thread
+    GrainStatus status{GrainStatus::fine};
+  };
+  std::vector<Worst> worst(static_cast<std::size_t>(thread_count()));
   parallel_for(grains_.size(), 64, [&](std::size_t slot) {
     advance_grain(slot);
     frames_[slot] =
         frame_of(grains_.id[slot], shapes_[grains_.shape[slot].get()], grains_.position[slot],
                  grains_.orientation[slot], grains_.velocity[slot],
                  grains_.angular_velocity_body[slot], setup_.density);
-    GrainStatus& status = worst[static_cast<std::size_t>(thread_index())];
+    GrainStatus& status = worst[static_cast<std::size_t>(thread_index())].status;
     status = std::max(status, status_of(slot, cell_motion ? &*cell_motion : nullptr));
   });
-  return *std::max_element(worst.begin(), worst.end());
+  GrainStatus status = GrainStatus::fine;
+  for (const Worst& of_thread : worst) status = std::max(status, of_thread.status);
+  return status;
 }
 
 void Simulation::advance_grain(std::size_t slot) {

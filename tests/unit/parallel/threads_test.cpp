@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace reckon {
@@ -61,6 +63,22 @@ TEST_P(ThreadLoop, LargestIsTheLeastWhereNothingIsLarger) {
     EXPECT_EQ(parallel_max(count, 3, [&](std::size_t k) { return -static_cast<double>(k); }), 3);
   }
   EXPECT_EQ(parallel_max(100000, 3, [&](std::size_t k) { return k == 70001 ? 4.0 : 1.0; }), 4);
+}
+
+TEST(ChunkParts, EveryThreadBeginsWithItsOwnPartAndTakesWhatIsLeft) {
+  const int before = thread_count();
+  set_thread_count(4);
+  const ChunkParts parts{103, 10};  // 11 chunks: parts of 2, 3, 3 and 3
+  set_thread_count(before);
+  std::array<ChunkParts::Next, ChunkParts::most> next{};
+  using Range = std::pair<std::size_t, std::size_t>;
+  std::vector<Range> of_third;
+  parts.visit(next, 2,
+              [&](std::size_t first, std::size_t last) { of_third.emplace_back(first, last); });
+  const std::vector<Range> expected{{50, 60}, {60, 70}, {70, 80}, {80, 90}, {90, 100}, {100, 103},
+                                    {0, 10},  {10, 20}, {20, 30}, {30, 40}, {40, 50}};
+  EXPECT_EQ(of_third, expected);
+  parts.visit(next, 0, [](std::size_t, std::size_t) { FAIL() << "all chunks were taken"; });
 }
 
 INSTANTIATE_TEST_SUITE_P(Counts, ThreadLoop, testing::Values(1, 2, 4));
