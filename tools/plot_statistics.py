@@ -24,7 +24,8 @@ def read_columns(path):
 def plot(tables, target):
     """A panel per quantity, a curve per table."""
     names = list(next(iter(tables.values())))
-    figure, axes = plt.subplots(2, (len(names) + 1) // 2, figsize=(13, 5.2), sharey=True)
+    figure, axes = plt.subplots(2, (len(names) + 1) // 2, figsize=(13, 5.2), sharey=True,
+                                squeeze=False)
     for panel, name in zip(axes.flat, names):
         for label, columns in tables.items():
             values = columns[name]
@@ -32,6 +33,8 @@ def plot(tables, target):
             panel.plot(values, shares, linewidth=1, label=label)
         panel.set_xlabel(name.replace("_m", " [m]").replace("_", " "))
         panel.grid(alpha=0.3)
+    for panel in axes.flat[len(names):]:
+        panel.set_visible(False)
     for panel in axes[:, 0]:
         panel.set_ylabel("grains below [%]")
     axes.flat[0].legend(fontsize=8)

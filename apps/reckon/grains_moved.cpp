@@ -141,7 +141,10 @@ void compare(const Options& options) {
     turned.push_back(angle);
     text += fmt::format("{},{:.6g},{:.6g},{:.6g}\n", n, distance, distance / diameter, angle);
   }
-  if (!options.output.empty()) write_file(options.output, text);
+  if (!options.output.empty()) {
+    require_own_file(options.output, text.substr(0, text.find('\n')), "table of moved grains");
+    write_file(options.output, text);
+  }
   const auto views = shape_views(library);
   const Movement movement{spread_of(moved), spread_of(turned), overlaps_of(views, before),
                           overlaps_of(views, after)};

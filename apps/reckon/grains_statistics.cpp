@@ -80,7 +80,11 @@ void add_grains_statistics(CLI::App& grains) {
   command->add_flag("--json", options->json, "Answer in JSON");
   command->callback([=] {
     const ShapeLibrary library = entries_of(LibrarySource{options->library});
-    if (!options->output.empty()) write_file(options->output, as_csv(library));
+    if (!options->output.empty()) {
+      const std::string table = as_csv(library);
+      require_own_file(options->output, table.substr(0, table.find('\n')), "table of shapes");
+      write_file(options->output, table);
+    }
     if (options->json) {
       fmt::print("{}", as_json(options->library, library));
     } else {

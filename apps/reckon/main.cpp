@@ -115,7 +115,7 @@ int run_command_line(int argc, char** argv, const Communicator& ranks) {
       "rest.",
       "reckon"};
   use_help_format(app);
-  app.set_version_flag("--version", version());
+  app.set_version_flag("-v,--version", version());
   app.require_subcommand(1);
   CommandWords words{argv, argv + argc};
   if (!words.empty()) words.front() = "reckon";

@@ -32,6 +32,7 @@ void report(const Options& options) {
   const std::vector<RunFolder> runs(options.folders.begin(), options.folders.end());
   std::filesystem::path output = options.output;
   if (output.empty()) output = runs.front().report();
+  require_own_file(output, "content=\"Sand Reckoner\"", "report of reckon");
   for (const RunFolder& run : runs) {
     if (const std::string verdict = verdict_text(verdict_of(run)); !verdict.empty()) {
       fmt::print("{}: {}", run.root().string(), verdict);

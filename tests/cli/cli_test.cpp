@@ -64,6 +64,7 @@ TEST_F(CliTest, HelpAndVersion) {
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.out.find("reckon "), 0U);
   EXPECT_EQ(version.err, "");
+  EXPECT_EQ(reckon({"-v"}).out, version.out);
   EXPECT_EQ(reckon({"--help"}).code, 0);
 }
 
@@ -147,6 +148,10 @@ TEST_F(CliTest, AReportIsOneFileAndNamesWhatIsWrong) {
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_NE(made.out.find("scene.run/report.html"), std::string::npos);
   EXPECT_EQ(read_file(root_ / "scene.run/report.html").find("<!doctype html>"), 0U);
+  EXPECT_EQ(reckon({"report", "scene.run"}).code, 0);  // replaces its own
+  const Outcome other = reckon({"report", "scene.run", "-o", "scene.toml"});
+  EXPECT_EQ(other.code, 1);
+  EXPECT_NE(other.err.find("no report of reckon"), std::string::npos) << other.err;
   EXPECT_EQ(reckon({"run", "scene.toml", "--steps", "100", "--overwrite"}).code, 0);
   EXPECT_FALSE(std::filesystem::exists(root_ / "scene.run/report.html"));
   const Outcome none = reckon({"report", "nothing.run"});
@@ -305,6 +310,9 @@ TEST_F(CliTest, SurfacesOnDemand) {
   EXPECT_EQ(RunFolder{root_ / "a"}.field_steps("surfaces"), (std::vector<std::uint64_t>{150, 160}));
   EXPECT_TRUE(std::filesystem::exists(root_ / "a" / "surfaces.pvd"));
   EXPECT_EQ(reckon({"surfaces", "a", "--step", "7"}).code, 1);
+  std::filesystem::create_directory(root_ / "no_run");
+  const Outcome no_run = reckon({"surfaces", "no_run", "--step", "7"});
+  EXPECT_NE(no_run.err.find("Name the folder of a run"), std::string::npos) << no_run.err;
 }
 
 TEST_F(CliTest, AStateForParaViewCountsFromTheStartOfTheLastStage) {

@@ -3,6 +3,7 @@
 #include "reckon/core/file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -180,6 +181,18 @@ void write_file(const std::filesystem::path& target, std::span<const std::string
 
 void write_file(const std::filesystem::path& target, std::string_view content) {
   write_file(target, std::span{&content, 1});
+}
+
+void require_own_file(const std::filesystem::path& target, std::string_view mark,
+                      std::string_view kind) {
+  if (!std::filesystem::is_regular_file(target)) return;
+  std::string head(1000, '\0');
+  head.resize(OpenFile{target, O_RDONLY}.read(0, head));
+  if (head.empty() || head.find(mark) != std::string::npos) return;
+  throw Error{{.place = target.string(),
+               .problem = "is not replaced",
+               .reason = fmt::format("there is another file of this name, no {}", kind),
+               .fix = "Give another name, or remove that file first."}};
 }
 
 std::string read_file(const std::filesystem::path& path) {

@@ -75,6 +75,12 @@ class OpenFile {
 void write_file(const std::filesystem::path& target, std::span<const std::string_view> parts);
 void write_file(const std::filesystem::path& target, std::string_view content);
 
+/// Throws Error where writing `target` would replace a file of another kind: one that is not empty
+/// and does not have `mark`, as all files of this kind do, among its first thousand bytes. `kind`
+/// is for the message: "table of shapes".
+void require_own_file(const std::filesystem::path& target, std::string_view mark,
+                      std::string_view kind);
+
 /// The whole content of a file or a pipe, as bytes. Throws Error when it cannot be read, and for a
 /// device, which may have no end.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);

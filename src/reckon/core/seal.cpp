@@ -75,13 +75,7 @@ void write_seal(const std::filesystem::path& path, const std::string& kind, std:
 }
 
 void require_replaceable(const std::filesystem::path& path, const std::string& kind) {
-  if (!std::filesystem::is_regular_file(path)) return;
-  const OpenFile file{path, O_RDONLY};
-  std::array<char, seal_size> head{};
-  const std::size_t size = file.read(0, head);
-  if (size == 0 || std::string_view{head.data(), size}.starts_with(seal_line(kind))) return;
-  refuse(path, "is not replaced", fmt::format("there is another file of this name, no {}", kind),
-         "Give another name, or remove that file first.");
+  require_own_file(path, seal_line(kind), kind);
 }
 
 SealContent check_seal(const std::filesystem::path& path, const std::string& kind) {

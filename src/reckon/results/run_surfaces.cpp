@@ -59,6 +59,12 @@ SurfaceFiles write_run_surfaces(
     const std::function<void(std::size_t done, std::size_t total)>& progressed) {
   const std::string place = folder.root().string();
   std::vector<std::uint64_t> steps = folder.checkpoint_steps();
+  if (steps.empty()) {
+    throw Error{{.place = place,
+                 .problem = "there is no checkpoint here",
+                 .reason = {},
+                 .fix = "Name the folder of a run."}};
+  }
   if (step) {
     if (std::find(steps.begin(), steps.end(), *step) == steps.end()) {
       throw Error{{.place = place,
@@ -67,12 +73,6 @@ SurfaceFiles write_run_surfaces(
                    .fix = "Its folder checkpoints lists them."}};
     }
     steps = {*step};
-  }
-  if (steps.empty()) {
-    throw Error{{.place = place,
-                 .problem = "there is no checkpoint here",
-                 .reason = {},
-                 .fix = "Name the folder of a run."}};
   }
   std::vector<TriangleMesh> surfaces;
   std::vector<ShapeSummary> summaries;

@@ -283,6 +283,9 @@ TEST_F(GrainsCommand, ScansThereAndBack) {
   }
   expect_holds(grains({"statistics", path("scan/library.h5"), "-o", path("a.csv")}), "roundness");
   expect_holds(read_file(path("a.csv")), "ellipsoid,");
+  grains({"statistics", path("scan/library.h5"), "-o", path("a.csv")});  // replaces its own
+  expect_holds(fault({"statistics", path("scan/library.h5"), "-o", path("scene.toml")}),
+               "no table of shapes");
   const std::vector<std::string> back{
       "from-scan", path("scan/volume.npy"), "--voxel", "60um", "--out", path("back"), "--truth",
       path("scan")};

@@ -33,6 +33,27 @@ TEST(ReadFile, TakesNoDeviceWhichMayHaveNoEnd) {
   EXPECT_THROW((void)read_file(::testing::TempDir()), Error);
 }
 
+TEST(OwnFiles, AreReplacedAndOthersNot) {
+  const std::filesystem::path file = testing::test_path();
+  const auto is_refused = [&] {
+    try {
+      require_own_file(file, "name,size", "table of shapes");
+    } catch (const Error& error) {
+      EXPECT_NE(std::string{error.what()}.find("no table of shapes"), std::string::npos);
+      return true;
+    }
+    return false;
+  };
+  EXPECT_FALSE(is_refused());  // nothing is there
+  write_file(file, "");
+  EXPECT_FALSE(is_refused());
+  write_file(file, "name,size\na,1\n");
+  EXPECT_FALSE(is_refused());
+  write_file(file, "the only copy of something else\n");
+  EXPECT_TRUE(is_refused());
+  std::filesystem::remove(file);
+}
+
 TEST(WriteFailures, NameTheDiskAndTheCure) {
   const auto text = [](int error_number) {
     try {
