@@ -84,9 +84,9 @@ TEST(Legacy592Page, NamesTheCodeOfTheDefaultEngine) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   };
   has(page, "`answer()` of `src/reckon/contact/law_lanes.cpp`");
-  has(page, "`rotate_between(b.old_spring[n], normal, b.old_normal[n])`");
+  has(page, "`rotate_between(before.shear_force[n], normal, before.normal[n])`");
   has(read_file(root + "src/reckon/contact/law_lanes.cpp"),
-      "rotate_between(b.old_spring[n], b.old_normal[n], normal)");
+      "rotate_between(before.shear_force[n], before.normal[n], normal)");
   has(page, "`TouchBatch::sum()` of `src/reckon/contact/touch_batch.hpp`");
   has(page, "`new_springs.push_back(gone)`");
   const std::string batch = read_file(root + "src/reckon/contact/touch_batch.hpp");

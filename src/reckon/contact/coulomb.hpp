@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "reckon/math/vec3.hpp"
@@ -35,19 +36,19 @@ struct CoulombSlider {
                                          const Vec3& normal, double time_step, double stiffness,
                                          double limit) {
   const double before = spring.stiffness > 0 ? spring.stiffness : stiffness;
-  const bool shrinks = stiffness < before;
-  const double kept = shrinks ? stiffness / before : 1.0;
+  // Each choice between values hangs on one comparison, so that loops over nodes become vectors.
+  const double kept =
+      (before > 0 ? std::min(stiffness, before) : 1.0) / (before > 0 ? before : 1.0);
   const Vec3 displacement = (velocity - dot(velocity, normal) * normal) * time_step;
   const Vec3 trial = kept * spring.force - stiffness * displacement;
   const double trial_squared = squared_norm(trial);
-  // Without a branch, so that loops over nodes can become vectors.
   const bool sticks = trial_squared <= limit * limit;
   Vec3 capped = (sticks ? 1.0 : limit / std::sqrt(trial_squared)) * trial;
   // Lost: what the step took in, the mean of the forces before and after times the displacement,
   // less what the spring now holds more than before.
   const double slip = sticks ? 0.0 : dot(spring.force + capped, trial - capped) / (2 * stiffness);
-  const double grown = shrinks || !(before > 0) ? 0.0 : 1 / before - 1 / stiffness;
-  const double gone = shrinks && stiffness > 0 ? (1 - kept) / stiffness : 0.0;
+  const double grown = before > 0 ? std::max(1 / before - 1 / stiffness, 0.0) : 0.0;
+  const double gone = stiffness > 0 ? (1 - kept) / stiffness : 0.0;
   return {capped,
           slip + 0.5 * (grown * squared_norm(spring.force) + gone * dot(spring.force, capped))};
 }

@@ -2,54 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "reckon/contact/contact_settings.hpp"
+#include "reckon/contact/node_lanes.hpp"
 #include "reckon/contact/pair_kernel.hpp"
-#include "reckon/contact/simd_level.hpp"
 #include "reckon/contact/spring_store.hpp"
 #include "reckon/contact/touch.hpp"
 
 namespace reckon {
-
-/// Touching nodes of any pairs side by side, one array per quantity: what a law is asked, and what
-/// it answers. Lanes that no node uses hold some older node or zeros.
-struct alignas(64) TouchLanes {
-  static constexpr std::size_t width = 8;
-  using Numbers = std::array<double, width>;
-  struct Vectors {
-    Numbers x, y, z;
-
-    [[nodiscard]] Vec3 operator[](std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
-    void set(std::size_t lane, const Vec3& v) {
-      x[lane] = v.x;
-      y[lane] = v.y;
-      z[lane] = v.z;
-    }
-  };
-
-  // Asked: see Touch, PairContext and ContactLaw.
-  Numbers phi, area, effective_mass, total_area, total_volume, third_moment, fourth_moment;
-  Vectors gradient, velocity, lever_master, lever_slave;
-  Vectors old_spring, old_normal;                 // zero where the node did not touch before
-  Numbers old_dashpot_push, old_shear_stiffness;  // likewise
-
-  // Answered.
-  Numbers steepness;  // of the distance
-  Vectors normal, force, shear_force, moment_master, moment_slave;
-  Numbers dashpot_push, shear_stiffness, elastic, friction, dashpot;
-
-  std::array<NodeIndex, width> node;
-  std::array<std::uint32_t, width> touching;  // nodes of the pair
-};
-
-/// Answers all lanes of all blocks: the bits of pair_force() at every node.
-using LawLanes = void (*)(const AnyContactLaw& law, double friction, double time_step,
-                          std::span<TouchLanes> blocks);
-[[nodiscard]] LawLanes law_lanes(SimdLevel level);
 
 /// pair_force() for many masters and slaves at once. Nodes of all wait until they fill the lanes of
 /// vector registers; each master's sums are then taken in node order as there.
@@ -100,23 +62,24 @@ DirectedForce TouchBatch::sum(std::size_t member, const Law& law,
   const auto let_go = [&](const NodeSpring& gone) { sum.friction += gone.spring().stored(); };
   for (std::size_t n = m.first; n < m.first + m.context.touching; ++n) {
     const TouchLanes& block = blocks_[n / TouchLanes::width];
+    const LaneTouches& touches = block.touches;
+    const LaneResponses& responses = block.responses;
     const std::size_t lane = n % TouchLanes::width;
-    if (!(block.steepness[lane] > 0)) continue;
-    const NodeIndex node = block.node[lane];
+    if (!(responses.steepness[lane] > 0)) continue;
+    const NodeIndex node = touches.node[lane];
     while (old != old_springs.end() && old->node < node) let_go(*old++);
     if (old != old_springs.end() && old->node == node) ++old;
-    sum.force += block.force[lane];
-    sum.moment_master += block.moment_master[lane];
-    sum.moment_slave -= block.moment_slave[lane];
+    sum.force += responses.force[lane];
+    sum.moment_master += responses.moment_master[lane];
+    sum.moment_slave -= responses.moment_slave[lane];
     if (first_moment != nullptr) {
-      *first_moment += outer(block.force[lane], block.lever_master[lane]);
+      *first_moment += outer(responses.force[lane], touches.lever_master[lane]);
     }
-    sum.deepest = std::max(sum.deepest, -block.phi[lane]);
-    sum.elastic += block.elastic[lane];
-    sum.friction += block.friction[lane];
-    sum.dashpot += block.dashpot[lane];
-    new_springs.push_back({node, master_is_b, block.shear_force[lane], block.normal[lane],
-                           block.dashpot_push[lane], block.shear_stiffness[lane]});
+    sum.deepest = std::max(sum.deepest, -touches.phi[lane]);
+    sum.elastic += responses.elastic[lane];
+    sum.friction += responses.friction[lane];
+    sum.dashpot += responses.dashpot[lane];
+    new_springs.push_back(block.after.get(lane, node, master_is_b));
     ++sum.touching;
   }
   while (old != old_springs.end()) let_go(*old++);
