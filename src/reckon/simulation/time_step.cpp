@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "reckon/simulation/setup.hpp"
 
@@ -20,9 +21,9 @@ double contact_stiffness(const ContactConfig& contact, double node_stiffness, bo
     return node_stiffness * touching_share * shape.node_area;
   }
   if (contact.law == ContactLawKind::hertz) {
-    PairContext context;
-    context.total_area = touching_share * shape.node_area;
-    return hertz_law(contact.young_modulus, contact.poisson_ratio, true, 0).pair_stiffness(context);
+    const HertzLaw law = hertz_law(contact.young_modulus, contact.poisson_ratio, true, 0);
+    const double area = touching_share * shape.node_area;  // 2 pi R d, where a^2 = R d
+    return 2 * law.normal_modulus * std::sqrt(area / (2 * std::numbers::pi));
   }
   const double nodes = capped ? static_cast<double>(*contact.node_cap)
                               : touching_share * static_cast<double>(shape.outline.nodes);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -250,6 +251,20 @@ TEST_F(StartCheckTest, TheTimeStepFollowsTheStiffestSpring) {
   const double usual_step = step_of("");
   EXPECT_EQ(step_of("shear_stiffness = \"1e9 N/m^3\""), usual_step);
   EXPECT_NEAR(step_of("shear_stiffness = \"8e9 N/m^3\""), 0.5 * usual_step, 1e-12 * usual_step);
+}
+
+/// A twentieth of a sphere's surface is that of a lens with R d = 0.1 R^2, so a = sqrt(0.1) R.
+TEST_F(StartCheckTest, TheTimeStepOfHertzFollowsFromTheElasticConstants) {
+  SceneReading reading =
+      read(with(scene(places("{position=[0,0,0]}")), "normal_stiffness = \"2e9 N/m^3\"",
+                "law = \"hertz\"\nyoung_modulus = \"70 GPa\"\npoisson_ratio = 0.25"));
+  const LoadedScene loaded = load_scene(reading);
+  for (const SceneFault& fault : reading.faults) ADD_FAILURE() << describe(fault, "scene");
+  const TimeStepChoice choice = choose_time_step(loaded.config, loaded.grains, loaded.shapes);
+  const double expected = 2 * 70e9 / (1 - 0.25 * 0.25) * std::sqrt(0.1) * 1e-3;
+  EXPECT_NEAR(choice.stiffness, expected, 0.01 * expected);
+  EXPECT_DOUBLE_EQ(choice.step,
+                   loaded.config.time.step_fraction * std::sqrt(choice.mass / choice.stiffness));
 }
 
 TEST_F(StartCheckTest, ATextWithFaultsOfSyntaxIsNotFilled) {
