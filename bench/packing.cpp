@@ -179,8 +179,9 @@ double wall_pressure(const Measurement& now, const Vec3& size) {
 
 namespace {
 
-/// A packing without its contacts, in the machine's own byte order. It fits the shapes that it was
-/// made of, by builds whose grains are laid out alike.
+/// The head of the file of a packing without its contacts, in the machine's own byte order. The
+/// grains follow. The file fits the shapes that it was made of, by builds whose grains are laid out
+/// alike.
 struct PackingFile {
   std::uint64_t grain_bytes{sizeof(GrainState)};
   double volume;  // of all shapes
@@ -195,6 +196,23 @@ struct PackingFile {
         pressure{packing.pressure} {}
 };
 
+/// Calls `transfer` with each field of each grain. A whole grain has undefined bytes between its
+/// fields, which would make two files of the same packing differ.
+template <class Grains, class Transfer>
+void visit_fields(Grains& grains, const Transfer& transfer) {
+  for (auto& grain : grains) {
+    transfer(grain.id);
+    transfer(grain.shape);
+    transfer(grain.prescribed);
+    transfer(grain.position);
+    transfer(grain.orientation);
+    transfer(grain.velocity);
+    transfer(grain.angular_velocity_body);
+    transfer(grain.angular_increment_body);
+    transfer(grain.ledger);
+  }
+}
+
 /// False, and the packing as it was, when there is none that fits.
 bool read_packing(const std::string& path, Packing& packing) {
   std::ifstream file{path, std::ios::binary};
@@ -202,8 +220,8 @@ bool read_packing(const std::string& path, Packing& packing) {
   PackingFile head{packing};
   std::vector<GrainState> grains(packing.setup.shapes.views().size());
   file.read(reinterpret_cast<char*>(&head), sizeof head);
-  file.read(reinterpret_cast<char*>(grains.data()),
-            static_cast<std::streamsize>(grains.size() * sizeof(GrainState)));
+  visit_fields(grains,
+               [&](auto& field) { file.read(reinterpret_cast<char*>(&field), sizeof field); });
   if (!file || head.grain_bytes != wanted.grain_bytes || head.volume != wanted.volume) return false;
   packing.state.grains = std::move(grains);
   packing.low = head.low;
@@ -216,8 +234,9 @@ void write_packing(const std::string& path, const Packing& packing) {
   const PackingFile head{packing};
   std::ofstream file{path, std::ios::binary};
   file.write(reinterpret_cast<const char*>(&head), sizeof head);
-  file.write(reinterpret_cast<const char*>(packing.state.grains.data()),
-             static_cast<std::streamsize>(packing.state.grains.size() * sizeof(GrainState)));
+  visit_fields(packing.state.grains, [&](const auto& field) {
+    file.write(reinterpret_cast<const char*>(&field), sizeof field);
+  });
 }
 
 }  // namespace
