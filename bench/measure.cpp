@@ -18,9 +18,9 @@ namespace {
 constexpr double ns_per_second = 1e9;
 
 /// The parts of PhaseTimes that a process of its own has.
-constexpr std::array phases{&PhaseTimes::frames,         &PhaseTimes::lists,
-                            &PhaseTimes::grain_contacts, &PhaseTimes::wall_contacts,
-                            &PhaseTimes::motion,         &PhaseTimes::agreement};
+constexpr std::array all_phases{&PhaseTimes::frames,         &PhaseTimes::lists,
+                                &PhaseTimes::grain_contacts, &PhaseTimes::wall_contacts,
+                                &PhaseTimes::motion,         &PhaseTimes::agreement};
 
 /// Seconds of this process: see measure().
 double now(int threads) {
@@ -43,7 +43,7 @@ class Meter {
     const double start = now(threads_);
     for (std::uint64_t n = 0; n < steps; ++n) simulation.step();
     const double seconds = now(threads_) - start;
-    for (auto phase : phases) sum_.*phase += simulation.phase_times().*phase - before.*phase;
+    for (auto phase : all_phases) sum_.*phase += simulation.phase_times().*phase - before.*phase;
     steps_ += steps;
     seconds_ += seconds;
     return seconds;
@@ -52,7 +52,7 @@ class Meter {
     const double scale =
         ns_per_second / static_cast<double>(std::max<std::uint64_t>(steps_, 1) * grains);
     Cost cost{steps_, seconds_ * scale, {}};
-    for (auto phase : phases) cost.phases.*phase = sum_.*phase * scale;
+    for (auto phase : all_phases) cost.phases.*phase = sum_.*phase * scale;
     return cost;
   }
   [[nodiscard]] double seconds_per_step() const {

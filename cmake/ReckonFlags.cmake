@@ -20,6 +20,9 @@ set(reckon_warnings
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wold-style-cast
   -Wno-missing-field-initializers)  # left-out designated initialisers take the stated defaults
+if(CMAKE_UNITY_BUILD)
+  list(APPEND reckon_warnings -Wno-shadow)  # names of one source seem to shadow those of another
+endif()
 if(RECKON_WARNINGS_AS_ERRORS)
   list(APPEND reckon_warnings -Werror)
 endif()

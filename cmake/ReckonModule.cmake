@@ -18,14 +18,17 @@ function(reckon_module name)
   add_library(reckon::${name} ALIAS reckon_${name})
 endfunction()
 
-# reckon_test(<name> SOURCES ... DEPENDS ... [LABELS ...])
+# reckon_test(<name> SOURCES ... DEPENDS ... [LABELS ...] [OWN_UNITS ...])
 #   One GoogleTest executable; every TEST in it becomes a ctest entry. Labels, which ./check goes by:
 #   slow     over about ten seconds: not under the sanitizers
 #   long     many minutes: only in ./check --long
 #   threads  exercises threads: also runs under the thread sanitizer
+#   OWN_UNITS: sources with names that others define, too. A unity build, which the sanitizers use,
+#   compiles each of them alone.
 function(reckon_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LABELS;OWN_UNITS" ${ARGN})
   include(GoogleTest)
+  set_source_files_properties(${arg_OWN_UNITS} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   add_executable(test_${name} ${arg_SOURCES})
   target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_link_libraries(test_${name} PRIVATE reckon_flags ${arg_DEPENDS} GTest::gtest_main)

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: Sand Reckoner contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs clang-tidy over every source of a build folder, skipping sources without findings that are unchanged.
+"""Runs clang-tidy over every unit of a build folder, skipping units without findings that are unchanged.
 
     tools/clang_tidy.py BUILD_FOLDER
 
-A source is clean for good as long as nothing that the result depends on changes: its own text, the
+A unit is one source, or several in a unity build, where clang-tidy reads their headers once. It is
+clean for good as long as nothing that the result depends on changes: its own text, the sources and
 headers that its object was built from, its compile command, the .clang-tidy files, and the version
-of the tool. The hashes of clean sources are kept in the user's cache folder, so that a fresh clone
+of the tool. The hashes of clean units are kept in the user's cache folder, so that a fresh clone
 profits too. The build folder must have been built, since the headers come from Ninja's records.
 """
 import collections
@@ -16,6 +17,7 @@ import hashlib
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -54,7 +56,9 @@ class Fingerprints:
         if path not in self.known:
             full = (self.build / path).resolve()
             if full.is_relative_to(ROOT):
-                self.known[path] = hashlib.sha256(full.read_bytes()).digest()
+                # A unity source includes others by their full path.
+                text = full.read_bytes().replace(str(ROOT).encode(), b"")
+                self.known[path] = hashlib.sha256(text).digest()
             else:
                 self.known[path] = f"{full} {full.stat().st_mtime_ns}".encode()
         return self.known[path]
@@ -68,8 +72,19 @@ class Fingerprints:
         return digest.hexdigest()
 
 
+def mirror_settings(build):
+    """Unity sources lie in the build folder. They need the .clang-tidy of the folder they come from."""
+    names = subprocess.run(["git", "ls-files", "*.clang-tidy"], cwd=ROOT, check=True,
+                           capture_output=True, text=True).stdout.splitlines()
+    for name in names:
+        copy = build / name
+        if copy.parent != build and copy.parent.is_dir():
+            shutil.copyfile(ROOT / name, copy)
+
+
 def main():
     build = pathlib.Path(sys.argv[1]).resolve()
+    mirror_settings(build)
     entries = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
     fingerprints = Fingerprints(build)
     cache = CACHE / "reckon" / "clang-tidy"
@@ -78,7 +93,7 @@ def main():
     waiting = {}
     for entry in entries:
         source = pathlib.Path(entry["file"])
-        if source.is_relative_to(build):
+        if source.is_relative_to(build) and not source.name.startswith("unity_"):
             continue  # generated
         stamp = cache / fingerprints.of_entry(entry)
         if not stamp.exists():
@@ -97,7 +112,7 @@ def main():
             if done.returncode != 0:
                 faulty += 1
                 print(f"{source.relative_to(ROOT)}:\n{done.stdout}", flush=True)
-    print(f"{len(entries)} sources: {len(entries) - len(waiting)} known to be clean, "
+    print(f"{len(entries)} units: {len(entries) - len(waiting)} known to be clean, "
           f"{len(waiting)} looked at, {faulty} with complaints")
     return 1 if faulty else 0
 

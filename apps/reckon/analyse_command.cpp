@@ -22,7 +22,7 @@ namespace reckon::app {
 
 namespace {
 
-struct Options {
+struct AnalyseOptions {
   std::string folder;
   AnalysisOptions analysis;
   std::string longest_edge;
@@ -73,7 +73,7 @@ std::string as_json(const RunAnalysis& done, const RunVerdict& verdict) {
   return json.text();
 }
 
-void analyse(const Options& options) {
+void analyse(const AnalyseOptions& options) {
   AnalysisOptions wanted = options.analysis;
   if (!options.longest_edge.empty()) {
     wanted.longest_edge = parse_length("--longest-edge", options.longest_edge);
@@ -100,7 +100,7 @@ void analyse(const Options& options) {
 void add_analyse_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "analyse", "Local strains and the distribution of contact forces from a run's saved fields");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AnalyseOptions>();
   command->add_option("run", options->folder, "Folder of a run")->required();
   command->add_option("--from", options->analysis.from,
                       "Step that strains are counted from; by default the first saved in the last "

@@ -21,7 +21,7 @@
 namespace reckon::app {
 namespace {
 
-struct Options {
+struct BenchOptions {
   std::vector<std::string> workloads;
   std::string size{"full"};
   std::string simd{"auto"};
@@ -50,7 +50,7 @@ std::string list_of_workloads() {
   return text;
 }
 
-bool run(const std::string& name, const Options& options) {
+bool run(const std::string& name, const BenchOptions& options) {
   const auto say = [&](const std::string& text) {
     if (options.quiet) return;
     fmt::print(stderr, "{}: {}\n", name, text);
@@ -78,7 +78,7 @@ bool run(const std::string& name, const Options& options) {
   return report.result.same_bits;
 }
 
-void bench(const Options& options) {
+void bench(const BenchOptions& options) {
   set_thread_count(options.threads);
   if (!options.cache.empty()) std::filesystem::create_directories(options.cache);
   bool same_bits = true;
@@ -93,7 +93,7 @@ void bench(const Options& options) {
 void add_bench_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("bench", "Measure what a step costs here, beside the plain algorithm");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchOptions>();
   std::vector<std::string> names;
   for (const bench::WorkloadKind& kind : bench::workload_kinds()) names.push_back(kind.name);
   command->add_option("workload", options->workloads, "What to run, one or more")

@@ -25,7 +25,7 @@
 namespace reckon::app {
 namespace {
 
-struct Options {
+struct FromScanOptions {
   std::string voxel;
   std::string folder;
   std::string until{"avatars"};
@@ -50,7 +50,7 @@ const std::map<std::string, ScanStage> stages{
     {"split", ScanStage::split},     {"avatars", ScanStage::choose}};
 
 /// The grid of the avatars is as fine as the scan unless an option changes it.
-ShapeResolution resolution_of(const Options& options) {
+ShapeResolution resolution_of(const FromScanOptions& options) {
   ShapeResolution resolution = options.avatars.resolution;
   if (options.nodes > 0) resolution.node_count = options.nodes;
   if (options.voxels_per_diameter > 0) {
@@ -74,7 +74,7 @@ std::vector<std::string> sources_of(const SegmentSettings& settings) {
   return files;
 }
 
-void run(Options options, const CommandWords& words) {
+void run(FromScanOptions options, const CommandWords& words) {
   if (options.threads > 0) set_thread_count(options.threads);
   require_ct_component();
   SegmentSettings& segment = options.segment;
@@ -124,7 +124,7 @@ void run(Options options, const CommandWords& words) {
   report.finish();
 }
 
-void add_stage_options(CLI::App& command, Options& options) {
+void add_stage_options(CLI::App& command, FromScanOptions& options) {
   const auto number = [&](const char* name, auto& value, const char* what) {
     return command.add_option(name, value, what)->capture_default_str();
   };
@@ -182,7 +182,7 @@ void add_stage_options(CLI::App& command, Options& options) {
   number("--fewest-voxels", s.fewest_voxels, "Smaller grains are dropped");
 }
 
-void add_avatar_options(CLI::App& command, Options& options) {
+void add_avatar_options(CLI::App& command, FromScanOptions& options) {
   AvatarSettings& s = options.avatars;
   command.add_option("--smooth", s.smoothing, "Gaussian smoothing of the surface [voxels]")
       ->capture_default_str()
@@ -225,7 +225,7 @@ void add_grains_from_scan(CLI::App& grains, const CommandWords& words) {
       "  reckon grains from-scan scan.nrrd --voxel 3um --out sand --until split   # look first\n"
       "  reckon grains from-scan scan.nrrd --voxel 3um --out sand\n"
       "  reckon run sand/relax.toml");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FromScanOptions>();
   SegmentSettings& s = options->segment;
   command
       ->add_option("volume", s.volume.file,

@@ -24,7 +24,7 @@
 namespace reckon::app {
 namespace {
 
-struct Options {
+struct MovedOptions {
   std::string placement;
   std::string run;
   std::string output;
@@ -105,7 +105,7 @@ std::string as_json(const Movement& m) {
   return json.text();
 }
 
-void compare(const Options& options) {
+void compare(const MovedOptions& options) {
   const RunFolder folder{options.run};
   const auto steps = folder.checkpoint_steps();
   if (steps.empty()) {
@@ -161,7 +161,7 @@ void add_grains_moved(CLI::App& grains) {
   CLI::App* command = grains.add_subcommand(
       "moved", "How far a run has moved grains from where a table placed them, and what overlaps");
   command->footer("Example:\n  reckon grains moved sand/placement.csv relax.run");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MovedOptions>();
   command->add_option("placement", options->placement, "Table of poses")
       ->required()
       ->check(CLI::ExistingFile);

@@ -32,7 +32,7 @@
 namespace reckon::app {
 namespace {
 
-struct Options {
+struct ScanOptions {
   std::string source;
   std::optional<std::uint64_t> step;
   std::string voxel;
@@ -53,7 +53,7 @@ struct Assembly {
   std::vector<std::string> files;  ///< that they were read from
 };
 
-Assembly open_run(const Options& options) {
+Assembly open_run(const ScanOptions& options) {
   const RunFolder folder{options.source};
   const auto steps = folder.checkpoint_steps();
   const std::uint64_t step = options.step.value_or(steps.empty() ? 0 : steps.back());
@@ -71,7 +71,7 @@ Assembly open_run(const Options& options) {
           {file.string()}};
 }
 
-Assembly open_scene(const Options& options) {
+Assembly open_scene(const ScanOptions& options) {
   SceneReading reading = read_scene_file(options.source);
   LoadedScene scene = load_scene(reading);
   if (!reading.faults.empty()) {
@@ -133,7 +133,7 @@ void require_grays_fit(const ScannerSettings& settings, VoxelType type) {
   }
 }
 
-void scan(const Options& options, const CommandWords& words) {
+void scan(const ScanOptions& options, const CommandWords& words) {
   if (options.threads > 0) set_thread_count(options.threads);
   const auto type = voxel_type_named(options.type);
   ScannerSettings settings = options.scanner;
@@ -192,7 +192,7 @@ void add_grains_scan(CLI::App& grains, const CommandWords& words) {
       "scan",
       "Scan a run or a scene as an X-ray tomograph would, with the truth beside the volume");
   command->footer("Example:\n  reckon grains scan settle.run --voxel 30um --out scan");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ScanOptions>();
   ScannerSettings& s = options->scanner;
   command->add_option("source", options->source, "Folder of a run, or a scene's .toml")
       ->required()

@@ -22,13 +22,13 @@
 namespace reckon::app {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::vector<std::string> folders;
   std::string output;
   PageLimits limits;
 };
 
-void report(const Options& options) {
+void report(const ReportOptions& options) {
   const std::vector<RunFolder> runs(options.folders.begin(), options.folders.end());
   std::filesystem::path output = options.output;
   if (output.empty()) output = runs.front().report();
@@ -62,7 +62,7 @@ void report(const Options& options) {
 void add_report_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "report", "Show runs in one HTML file: curves, grains in three dimensions, tables");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   command->add_option("runs", options->folders, "Folders of runs; several are compared")
       ->required();
   command->add_option("-o,--output", options->output,

@@ -35,7 +35,7 @@
 namespace reckon::app {
 namespace {
 
-struct Options {
+struct RunCommandOptions {
   std::string scene;
   std::string folder;
   int threads{0};
@@ -47,12 +47,12 @@ struct Options {
   double safety_minutes{10};
 };
 
-std::filesystem::path run_folder(const Options& options) {
+std::filesystem::path run_folder(const RunCommandOptions& options) {
   if (!options.folder.empty()) return options.folder;
   return std::filesystem::path{options.scene}.stem().string() + ".run";
 }
 
-std::string resume_hint(const Options& options) {
+std::string resume_hint(const RunCommandOptions& options) {
   return fmt::format("reckon run {}{} --resume", shell_word(options.scene),
                      options.folder.empty() ? "" : " --out " + shell_word(options.folder));
 }
@@ -134,7 +134,7 @@ int default_thread_count(const Communicator& ranks) {
   return std::clamp(share, 1, thread_count());
 }
 
-void set_threads(const Options& options, const Communicator& ranks) {
+void set_threads(const RunCommandOptions& options, const Communicator& ranks) {
   if (options.threads > 0) {
     set_thread_count(options.threads);
   } else if (ranks.size() > 1 &&
@@ -144,7 +144,7 @@ void set_threads(const Options& options, const Communicator& ranks) {
 }
 
 /// Returns on all ranks, with the scene on the root; with faults it ends the command on all.
-SceneInput read_scene_on_root(const Options& options, const Communicator& ranks) {
+SceneInput read_scene_on_root(const RunCommandOptions& options, const Communicator& ranks) {
   SceneInput input;
   on_root(ranks, [&] { input = read_scene(options.scene); });
   if (ranks.any(!input.reading.faults.empty())) {
@@ -154,7 +154,7 @@ SceneInput read_scene_on_root(const Options& options, const Communicator& ranks)
   return input;
 }
 
-void run(const Options& options, const Communicator& ranks, bool launched) {
+void run(const RunCommandOptions& options, const Communicator& ranks, bool launched) {
   set_threads(options, ranks);
   const SceneInput input = read_scene_on_root(options, ranks);
   const bool quiet = options.quiet || options.json || !ranks.is_root();
@@ -217,7 +217,7 @@ void run(const Options& options, const Communicator& ranks, bool launched) {
 
 void add_run_command(CLI::App& app, const Communicator& ranks, bool launched) {
   CLI::App* command = app.add_subcommand("run", "Run a scene, or go on with a run");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunCommandOptions>();
   command->add_option("scene", options->scene, "Scene file (TOML)")->required();
   command->add_option("--out", options->folder,
                       "Folder for the run's files (default: name of the scene + .run)");

@@ -19,13 +19,13 @@
 namespace reckon::app {
 namespace {
 
-struct Options {
+struct WatchOptions {
   std::string folder;
   int port{0};
   PageLimits limits;
 };
 
-void watch(const Options& options) {
+void watch(const WatchOptions& options) {
   const RunFolder folder{options.folder};
   if (!folder.holds_run()) {
     throw Error{{.place = options.folder,
@@ -53,7 +53,7 @@ void watch(const Options& options) {
 void add_watch_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("watch", "Show a run in a browser while it goes on, as `report` does");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<WatchOptions>();
   command->add_option("run", options->folder, "Folder of a run")->required();
   command->add_option("--port", options->port, "Where to listen on 127.0.0.1; 0: any free port")
       ->check(CLI::Range(0, 65535))

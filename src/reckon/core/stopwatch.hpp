@@ -9,6 +9,10 @@ namespace reckon {
 /// Wall-clock time, for reports only: no decision of a run may depend on it.
 class Stopwatch {
  public:
+  /// Seconds since the last lap, or since the start, without beginning a new lap.
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
+  }
   /// Seconds since the last lap, or since the start.
   [[nodiscard]] double lap() {
     const auto now = std::chrono::steady_clock::now();

@@ -19,7 +19,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "arrays are written as they lie in memory, and the header says LittleEndian");
 
-[[noreturn]] void refuse(const std::filesystem::path& path, std::string problem) {
+[[noreturn]] void refuse_file(const std::filesystem::path& path, std::string problem) {
   throw Error{{.place = path.string(), .problem = std::move(problem), .reason = {}, .fix = {}}};
 }
 
@@ -89,19 +89,19 @@ struct Document {
 };
 
 void check(const std::filesystem::path& path, const VtkPolyData& data) {
-  if (data.points.components != 3) refuse(path, "points need three coordinates each");
+  if (data.points.components != 3) refuse_file(path, "points need three coordinates each");
   for (const VtkCells* cells : {&data.vertices, &data.lines, &data.polygons}) {
     std::int64_t begin = 0;
     for (const std::int64_t end : cells->offsets) {
-      if (end < begin) refuse(path, "cell offsets must not decrease");
+      if (end < begin) refuse_file(path, "cell offsets must not decrease");
       begin = end;
     }
     if (begin != static_cast<std::int64_t>(cells->connectivity.size())) {
-      refuse(path, "the last cell offset must be the length of the connectivity");
+      refuse_file(path, "the last cell offset must be the length of the connectivity");
     }
     for (const std::int64_t point : cells->connectivity) {
       if (point < 0 || static_cast<std::size_t>(point) >= data.points.tuples) {
-        refuse(path, fmt::format("a cell names point {} of {}", point, data.points.tuples));
+        refuse_file(path, fmt::format("a cell names point {} of {}", point, data.points.tuples));
       }
     }
   }
@@ -109,8 +109,8 @@ void check(const std::filesystem::path& path, const VtkPolyData& data) {
   const auto check_lengths = [&](const std::vector<VtkArray>& arrays, std::size_t expected) {
     for (const VtkArray& array : arrays) {
       if (array.tuples != expected) {
-        refuse(path, fmt::format("array {} has {} tuples where {} are needed", array.name,
-                                 array.tuples, expected));
+        refuse_file(path, fmt::format("array {} has {} tuples where {} are needed", array.name,
+                                      array.tuples, expected));
       }
     }
   };

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <numbers>
@@ -18,6 +17,7 @@
 #include "reckon/analysis/stage_goals.hpp"
 #include "reckon/core/build_info.hpp"
 #include "reckon/core/failure_text.hpp"
+#include "reckon/core/stopwatch.hpp"
 #include "reckon/domain/packing.hpp"
 #include "reckon/output/output_schedule.hpp"
 #include "reckon/parallel/on_root.hpp"
@@ -32,12 +32,6 @@
 
 namespace reckon {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr std::uint64_t rest_interval_without_history = 100;  // steps
 constexpr std::uint64_t vote_interval = 16;      // steps; a vote costs all ranks a wait
@@ -142,7 +136,7 @@ class Session {
   void update_progress() {
     progress_.step = simulation_.step_number();
     progress_.time = simulation_.time();
-    progress_.wall_seconds = seconds_since(start_);
+    progress_.wall_seconds = since_start_.seconds();
   }
 
   /// Requests of clocks and signals. They differ between ranks before the vote, and change when
@@ -155,7 +149,7 @@ class Session {
     if (ranks_.size() > 1 && progress_.step % vote_interval != 0) return {};
     const bool stop = hooks_.stop_requested && hooks_.stop_requested();
     const bool late = files_ != nullptr && options_.safety_interval > 0 &&
-                      seconds_since(last_checkpoint_time_) >= options_.safety_interval;
+                      since_checkpoint_.seconds() >= options_.safety_interval;
     std::array<std::int64_t, 2> votes{stop ? 1 : 0, late ? 1 : 0};
     ranks_.sum(votes);
     return {votes[0] > 0, votes[1] > 0};
@@ -253,8 +247,8 @@ class Session {
       begin_next_stage();
     }
     if (is_due(step, config_.output.checkpoint_interval) || safety_checkpoint) save_checkpoint();
-    if (files_ != nullptr && seconds_since(last_log_time_) >= log_interval) {
-      last_log_time_ = Clock::now();
+    if (files_ != nullptr && since_log_.seconds() >= log_interval) {
+      since_log_ = {};
       files_->log(
           fmt::format("step {} of {}, {:.6g} s simulated", step, progress_.steps, progress_.time));
     }
@@ -347,7 +341,7 @@ class Session {
     SimulationState state = simulation_.state();
     on_root(ranks_, [&] { files_->write_checkpoint(std::move(state), goal_.since()); });
     last_checkpoint_ = progress_.step;
-    last_checkpoint_time_ = Clock::now();
+    since_checkpoint_ = {};
     save_record("running");
   }
 
@@ -420,9 +414,9 @@ class Session {
   CellState cell_;  // of the last row
   bool measured_{false};
   std::optional<std::uint64_t> last_checkpoint_;  // its step
-  Clock::time_point start_{Clock::now()};
-  Clock::time_point last_checkpoint_time_{start_};
-  Clock::time_point last_log_time_{start_};
+  Stopwatch since_start_;
+  Stopwatch since_checkpoint_;
+  Stopwatch since_log_;
 };
 
 }  // namespace

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <vector>
 
 #include "reckon/core/error.hpp"
+#include "reckon/core/stopwatch.hpp"
 #include "reckon/output/history.hpp"
 #include "reckon/parallel/threads.hpp"
 #include "reckon/scene/node_spacing.hpp"
@@ -21,12 +21,6 @@
 
 namespace reckon {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // A dense assembly, assumed in the estimates of memory and output.
 constexpr std::uint64_t pairs_per_grain = 3;
@@ -141,16 +135,16 @@ void time_steps(PreparedScene& prepared, double timing_seconds, bool with_sample
     plan.contacts = measurement.contacts + measurement.wall_contacts;
     plan.deepest_overlap = measurement.deepest_overlap;
     simulation.step();  // makes buffers that later steps find ready
-    const Clock::time_point start = Clock::now();
-    while (plan.timed_steps + 1 < plan.steps && seconds_since(start) < timing_seconds) {
+    const Stopwatch stepping;
+    while (plan.timed_steps + 1 < plan.steps && stepping.seconds() < timing_seconds) {
       simulation.step();
       ++plan.timed_steps;
     }
-    const double spent = seconds_since(start);
+    const double spent = stepping.seconds();
     if (plan.timed_steps > 0) plan.seconds_per_step = spent / static_cast<double>(plan.timed_steps);
-    const Clock::time_point measuring = Clock::now();
+    const Stopwatch measuring;
     measurement = simulation.measure();
-    seconds_per_row = seconds_since(measuring);
+    seconds_per_row = measuring.seconds();
     const SampleMeasurement sample = measure_sample(simulation);
     const CellState cell = simulation.cell() != nullptr ? simulation.cell_state() : CellState{};
     const HistoryRow row{.measurement = measurement, .cell = &cell, .stage = 1, .sample = &sample};

@@ -15,7 +15,7 @@
 namespace reckon {
 namespace {
 
-constexpr std::size_t bins = 256;
+constexpr std::size_t gray_bins = 256;
 constexpr int cells_per_edge = 5;  // of the volume's shortest
 constexpr std::int32_t least_cell = 18;
 constexpr std::size_t most_cells = 20000;
@@ -209,9 +209,11 @@ class Cells {
           }
         }
         auto& counts = counts_[index(i / edge_, j / edge_, k / edge_)];
-        if (counts.empty()) counts.resize(bins, 0);
-        const double bin = (gray.values[at] - low_) / (high_ - low_) * static_cast<double>(bins);
-        ++counts[static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(bins) - 1))];
+        if (counts.empty()) counts.resize(gray_bins, 0);
+        const double bin =
+            (gray.values[at] - low_) / (high_ - low_) * static_cast<double>(gray_bins);
+        ++counts[static_cast<std::size_t>(
+            std::clamp(bin, 0.0, static_cast<double>(gray_bins) - 1))];
       });
     }
   }
@@ -238,9 +240,9 @@ class Cells {
         return;
       }
       const RoughLevels levels = rough_levels(counts, low_, high_);
-      const double width = (high_ - low_) / static_cast<double>(bins);
+      const double width = (high_ - low_) / static_cast<double>(gray_bins);
       std::uint64_t dark = 0;
-      for (std::size_t bin = 0; bin < bins; ++bin) {
+      for (std::size_t bin = 0; bin < gray_bins; ++bin) {
         if (low_ + width * (static_cast<double>(bin) + 0.5) < levels.threshold) dark += counts[bin];
       }
       const double share = static_cast<double>(dark) / static_cast<double>(total);
