@@ -179,23 +179,6 @@ double wall_pressure(const Measurement& now, const Vec3& size) {
 
 namespace {
 
-/// The head of the file of a packing without its contacts, in the machine's own byte order. The
-/// grains follow. The file fits the shapes that it was made of, by builds whose grains are laid out
-/// alike.
-struct PackingFile {
-  std::uint64_t grain_bytes{sizeof(GrainState)};
-  double volume;  // of all shapes
-  Vec3 low;
-  Vec3 high;
-  double pressure;
-
-  explicit PackingFile(const Packing& packing)
-      : volume{total_volume(packing.setup.shapes.views())},
-        low{packing.low},
-        high{packing.high},
-        pressure{packing.pressure} {}
-};
-
 /// Calls `transfer` with each field of each grain. A whole grain has undefined bytes between its
 /// fields, which would make two files of the same packing differ.
 template <class Grains, class Transfer>
@@ -212,6 +195,31 @@ void visit_fields(Grains& grains, const Transfer& transfer) {
     transfer(grain.ledger);
   }
 }
+
+/// Bytes of one grain in a file.
+std::uint64_t bytes_of_fields() {
+  std::vector<GrainState> one(1);
+  std::uint64_t bytes = 0;
+  visit_fields(one, [&](const auto& field) { bytes += sizeof field; });
+  return bytes;
+}
+
+/// The head of the file of a packing without its contacts, in the machine's own byte order. The
+/// grains follow. The file fits the shapes that it was made of, by builds whose grains are laid out
+/// alike.
+struct PackingFile {
+  std::uint64_t grain_bytes{bytes_of_fields()};
+  double volume;  // of all shapes
+  Vec3 low;
+  Vec3 high;
+  double pressure;
+
+  explicit PackingFile(const Packing& packing)
+      : volume{total_volume(packing.setup.shapes.views())},
+        low{packing.low},
+        high{packing.high},
+        pressure{packing.pressure} {}
+};
 
 /// False, and the packing as it was, when there is none that fits.
 bool read_packing(const std::string& path, Packing& packing) {
