@@ -92,6 +92,11 @@ TEST(Legacy592Page, NamesTheCodeOfTheDefaultEngine) {
   const std::string batch = read_file(root + "src/reckon/contact/touch_batch.hpp");
   has(batch, "let_go = [&](const NodeSpring& gone)");
   has(batch, "new_springs.push_back(");
+  has(page, "`ChunkStep::sum()` of `src/reckon/contact/grain_contacts_near.cpp`");
+  has(page, "`after.set(lane, before.get(lane, 0, false))` instead of `after.set(lane, {})`");
+  has(read_file(root + "src/reckon/contact/grain_contacts_near.cpp"), "after.set(lane, {});");
+  has(page, "`remove_leaving()` of `src/reckon/contact/pair_lanes.cpp`");
+  has(read_file(root + "src/reckon/contact/pair_lanes.cpp"), "remove_leaving(LaneChunk& chunk)");
 }
 
 }  // namespace

@@ -3,17 +3,20 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "reckon/contact/contact_counters.hpp"
 #include "reckon/contact/contact_settings.hpp"
 #include "reckon/contact/displacement_bound.hpp"
 #include "reckon/contact/near_list.hpp"
+#include "reckon/contact/node_lanes.hpp"
+#include "reckon/contact/pair_lanes.hpp"
 #include "reckon/contact/spring_store.hpp"
 #include "reckon/contact/touch.hpp"
-#include "reckon/contact/touch_batch.hpp"
 #include "reckon/grains/grain_frame.hpp"
 #include "reckon/grains/periodic_cell.hpp"
 #include "reckon/neighbor/pair_list.hpp"
@@ -61,10 +64,11 @@ struct BrokenBonds {
 /// A step is evaluate(), then load_on() for every grain, then commit(). Without commit() the
 /// springs stay those of the last step, so forces can be looked at without moving on.
 ///
-/// With ContactEngine::near a pair is skipped while nothing can touch and it holds no springs:
+/// With ContactEngine::near the nodes that touch are kept in PairLanes and computed at every step,
+/// eight at a time. Nodes that are near but do not touch are in the near lists of their pair, which
+/// are searched only when some of them may have begun to touch:
 ///
-///   skipped: path length (sum of both grains') < next_check_[pair]; no forces, no springs
-///   due:     its near lists are asked, and the law is evaluated at its touching nodes
+///   path_length (sum of what both grains travelled) >= next_check_[pair]
 ///
 /// The path lengths and the lists are derived from the frames alone. They are in no checkpoint, and
 /// no answer depends on them.
@@ -75,19 +79,24 @@ class GrainContacts {
       : settings_{std::move(settings)},
         engine_{engine},
         filter_{point_filter(simd)},
-        lanes_{law_lanes(simd)} {}
+        place_{place_lanes(simd)},
+        law_of_nodes_{law_of_nodes(simd)} {}
 
   /// Lists the pairs anew, which must be sorted by ids; pairs that were listed keep their springs.
-  /// `slot_count` grains.
-  void rebuild(std::vector<Pair> pairs, std::size_t slot_count);
+  /// `slot_count` grains, of which the first `owned` are not ghosts.
+  void rebuild(std::vector<Pair> pairs, std::size_t slot_count, std::size_t owned);
+  void rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
+    rebuild(std::move(pairs), slot_count, slot_count);
+  }
 
   /// Finds touching nodes and computes the force of every listed pair.
   void evaluate(std::span<const GrainFrame> frames, double time_step) {
     evaluate_interior(frames, time_step, frames.size());
     evaluate_border(frames, time_step);
   }
-  /// The same in two parts, for messages that arrive in between. First the pairs within the first
-  /// `owned` frames; the other frames need only their ids. Then the pairs with the other frames.
+  /// The same in two parts, for messages that arrive in between. First the pairs of two owned
+  /// grains: the frames of ghosts need only their ids. Then the pairs with ghosts. `owned` is that
+  /// of the last rebuild().
   void evaluate_interior(std::span<const GrainFrame> frames, double time_step, std::size_t owned);
   void evaluate_border(std::span<const GrainFrame> frames, double time_step);
 
@@ -111,7 +120,8 @@ class GrainContacts {
   /// Sets the Coulomb coefficient from the next evaluate() on.
   void set_friction(double friction) { settings_.friction = friction; }
 
-  /// In the order of their slots, so that neighbours in space are neighbours in memory.
+  /// In the order of their slots, so that neighbours in space are neighbours in memory, but pairs
+  /// with ghosts last.
   [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
   [[nodiscard]] std::span<const PairForce> forces() const { return forces_; }
   /// For every grain its pairs, in the order of the partners' ids.
@@ -130,16 +140,17 @@ class GrainContacts {
   void adopt(std::span<const PairSprings> springs);
 
  private:
-  /// A pair whose nodes are in a batch.
-  struct Waiting {
-    std::size_t pair;
-    double next_check;
-  };
   /// What one thread works with.
   struct alignas(64) Scratch {
     std::vector<Touch> touches;
-    TouchBatch batch;
-    std::vector<Waiting> waiting;
+    // Of the chunk in work, per block of lanes: what is computed, and which nodes touch.
+    std::vector<LaneWork> work;
+    std::vector<std::uint32_t> touching;
+    std::vector<PairContext> contexts;  // of active pairs, by master
+    std::vector<PairImage> images;      // by pair
+    std::vector<std::uint32_t> due;     // pairs to be searched
+    std::vector<NodeIndex> nodes;
+    std::vector<NearList::Found> found;
     ContactCounters counters;
   };
   /// Near lists of one pair: a's nodes on b, b's nodes on a; most rules use one.
@@ -147,52 +158,41 @@ class GrainContacts {
     NearList of_a;
     NearList of_b;
   };
+  /// One chunk of pairs at one step (grain_contacts_near.cpp).
+  class ChunkStep;
 
-  /// The pairs within the owned frames, or those with others.
-  struct Part {
-    std::uint32_t owned;
-    bool with_others;
-
-    [[nodiscard]] bool has(const Pair& pair) const {
-      return with_others == (pair.slot_a >= owned || pair.slot_b >= owned);
-    }
-  };
-  void evaluate_part(bool with_others, std::span<const GrainFrame> frames, double time_step);
+  void evaluate_part(bool with_ghosts, std::span<const GrainFrame> frames, double time_step);
   void forget_near_lists();
   [[nodiscard]] bool may_use_near_lists();
-  template <ContactLaw Law>
-  void evaluate_pairs(const Law& law, Part part, std::span<const GrainFrame> frames,
-                      double time_step, bool use_near_lists);
+  void evaluate_near(std::span<const GrainFrame> frames, double time_step, bool with_ghosts,
+                     bool use_near_lists);
+  void evaluate_plainly(std::span<const GrainFrame> frames, double time_step, bool with_ghosts);
   template <ContactLaw Law>
   void evaluate_plainly(const Law& law, std::size_t p, std::span<const GrainFrame> frames,
                         double time_step, Scratch& scratch);
-  void prefetch(std::size_t p, std::span<const GrainFrame> frames) const;
-  void find_nodes(std::size_t p, std::span<const GrainFrame> frames, double time_step,
-                  double path_length, Scratch& scratch);
-  template <ContactLaw Law>
-  void answer_waiting(const Law& law, std::span<const GrainFrame> frames, double time_step,
-                      Scratch& scratch);
+  [[nodiscard]] Scratch& scratch() { return scratch_[static_cast<std::size_t>(thread_index())]; }
   const GrainFrame& image_of_b(std::size_t p, std::span<const GrainFrame> frames,
                                std::optional<GrainFrame>& image);
   [[nodiscard]] PairContext context_of(const GrainFrame& a, const GrainFrame& b,
                                        double time_step) const;
-  void settle(std::size_t p, std::span<const GrainFrame> frames, double next_check,
-              bool had_springs, ContactCounters& counters);
+  void finish(std::size_t p, std::span<const GrainFrame> frames, ContactCounters& counters);
+  [[nodiscard]] std::vector<NodeSpring> springs_of(std::size_t p) const;
+  void set_springs(std::size_t p, std::span<const NodeSpring> springs);
   void add_bond(std::size_t p, std::span<const GrainFrame> frames);
   void keep_bond(std::size_t p, const Bond& bond);
 
   ContactSettings settings_;
   ContactEngine engine_;
   PointFilter filter_;
-  LawLanes lanes_;
+  PlaceLanes place_;
+  LawOfNodes law_of_nodes_;
   std::vector<Pair> pairs_;
+  std::size_t interior_{0};            // pairs without ghosts: the first ones
   std::vector<std::uint32_t> by_ids_;  // the pairs sorted by ids
   PairsOfGrain pairs_of_grain_;
-  std::vector<SpringRange> springs_of_pair_;  // in store_, as of the last commit
-  std::vector<SpringRange> new_springs_of_pair_;
   std::vector<PairForce> forces_;
   std::vector<std::uint8_t> acts_;  // per pair: whether its force or losses are to be added
-  SpringStore store_;
+  std::map<std::pair<GrainId, GrainId>, PairSprings> adopted_;  // until the next rebuild
   static constexpr std::uint32_t no_bond = 0xFFFFFFFF;
   std::vector<std::uint32_t> bond_of_pair_;  // in bonds_, or no_bond
   std::vector<Bond> bonds_;                  // those that broke stay until the next rebuild
@@ -201,8 +201,15 @@ class GrainContacts {
   BrokenBonds broken_;
   std::size_t owned_{0};  // frames at the last evaluate()
 
+  // Of the plain engine, by pair: in store_, as of the last commit and of the last evaluate().
+  std::vector<SpringRange> springs_of_pair_;
+  std::vector<SpringRange> new_springs_of_pair_;
+  SpringStore store_;
+
+  // Of the near engine.
+  PairLanes lanes_;
   DisplacementBound displacements_;
-  std::vector<double> next_check_;  // per pair: path length [m]; minus infinity: due
+  std::vector<double> next_check_;  // per pair: the path length at which its lists are searched [m]
   std::vector<NearPair> near_;      // per pair
   std::optional<PeriodicCell> cell_;
   CellMotion cell_motion_;

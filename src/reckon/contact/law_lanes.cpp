@@ -75,14 +75,33 @@ HWY_ATTR __attribute__((flatten)) void answer_blocks(const Law& given, double fr
   }
 }
 
+template <class Law>
+HWY_ATTR __attribute__((flatten)) void answer_nodes(const Law& given, double friction,
+                                                    double time_step, std::size_t now,
+                                                    std::span<NodeLanes> lanes,
+                                                    std::span<LaneWork> work) {
+  const Law law = given;
+  for (std::size_t b = 0; b < lanes.size(); ++b) {
+    answer(law, friction, time_step, work[b].touches, lanes[b].springs[1 - now],
+           lanes[b].springs[now], work[b].responses);
+  }
+}
+
 void answer_any_blocks(const AnyContactLaw& any, double friction, double time_step,
                        std::span<TouchLanes> blocks) {
   std::visit([&](const auto& law) { answer_blocks(law, friction, time_step, blocks); }, any);
 }
 
+void answer_any_nodes(const AnyContactLaw& any, double friction, double time_step, std::size_t now,
+                      std::span<NodeLanes> lanes, std::span<LaneWork> work) {
+  std::visit([&](const auto& law) { answer_nodes(law, friction, time_step, now, lanes, work); },
+             any);
+}
+
 }  // namespace
 
 LawLanes lanes_of_target() { return answer_any_blocks; }
+LawOfNodes nodes_of_target() { return answer_any_nodes; }
 
 }  // namespace reckon::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -99,6 +118,17 @@ LawLanes law_lanes(SimdLevel level) {
   if (resolved == SimdLevel::avx512) return N_AVX3::lanes_of_target();
 #endif
   return HWY_STATIC_DISPATCH(lanes_of_target)();  // what all machines of this kind have
+}
+
+LawOfNodes law_of_nodes(SimdLevel level) {
+  [[maybe_unused]] const SimdLevel resolved = resolve(level);
+#if HWY_TARGETS & HWY_AVX2
+  if (resolved == SimdLevel::avx2) return N_AVX2::nodes_of_target();
+#endif
+#if HWY_TARGETS & HWY_AVX3
+  if (resolved == SimdLevel::avx512) return N_AVX3::nodes_of_target();
+#endif
+  return HWY_STATIC_DISPATCH(nodes_of_target)();
 }
 
 }  // namespace reckon

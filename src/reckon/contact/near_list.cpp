@@ -9,16 +9,9 @@
 
 #include "reckon/contact/clearance.hpp"
 #include "reckon/contact/displacement_bound.hpp"
-#include "reckon/contact/sphere_contact.hpp"
 
 namespace reckon {
 namespace {
-
-/// Taken off every clearance: far more than the rounding of positions in the slave's frame, of phi
-/// and of the Lipschitz constant, and than that of sums with the path_length.
-double rounding_margin(double both_radii, double path_length) {
-  return 1e-12 * both_radii + 8 * std::numeric_limits<double>::epsilon() * path_length;
-}
 
 /// The bound of a cluster whose nodes have been looked at one by one.
 constexpr float opened = std::numeric_limits<float>::infinity();
@@ -45,55 +38,35 @@ struct ClusterSpheres {
 
 }  // namespace
 
+double rounding_margin(double both_radii, double path_length) {
+  return 1e-12 * both_radii + 8 * std::numeric_limits<double>::epsilon() * path_length;
+}
+
 double NearList::find_touches(const GrainFrame& master, const GrainFrame& slave, double path_length,
-                              PointFilter filter, std::vector<Touch>& touches,
-                              ContactCounters& counters) {
+                              PointFilter filter, std::span<const NodeIndex> touching,
+                              std::vector<Found>& found, ContactCounters& counters) {
   const double both_radii = list_.exists()
                                 ? list_.partner().both_radii
                                 : master.shape->bounding_radius + slave.shape->bounding_radius;
   const double margin = rounding_margin(both_radii, path_length);
-  if (are_spheres(master, slave)) {
-    const double gap = touch_spheres(master, slave, touches);
-    return gap < 0 ? check_always : path_length + std::max(gap - margin, 0.0);
-  }
-  list_.prefetch_next_checks(path_length);
   const Vec3 offset_world = master.position - slave.position;
   if (!spheres_meet(offset_world, both_radii)) {
     return path_length + std::max(norm(offset_world) - both_radii - margin, 0.0);
   }
-  const RelativePose at = relative_pose(master, slave);
+  const NodeTest test{master, slave, margin};
   if (!list_.complete_at(path_length)) {
     ++counters.lists_checked;
-    if (!still_complete(at, master.shape->bounding_radius, path_length, margin)) {
-      make(*master.shape, *slave.shape, at, path_length, margin, filter, counters);
+    if (!still_complete(test.at, master.shape->bounding_radius, path_length, margin)) {
+      make(*master.shape, *slave.shape, test.at, path_length, margin, filter, touching, counters);
     }
   }
-  const Slave& other = list_.partner();
-  return list_.look(path_length, touches, [&](Node& node) {
-    ++counters.tested_nodes;
-    const auto next_check_after = [&](double clearance) {
-      return path_length + std::max(clearance - margin, 0.0);
-    };
-    const Vec3 point = at.turn * node.place_body + at.shift;
-    if (!(squared_norm(point) < other.radius_squared)) {
-      return next_check_after(norm(point) - slave.shape->bounding_radius);
-    }
-    const auto where = other.grid.locate(point);
-    if (!where.inside) return next_check_after(Clearance{*slave.shape}.of_grid(point));
-    if (where.i != node.i || where.j != node.j || where.k != node.k) {
-      ++counters.cells_read;
-      node.i = where.i;
-      node.j = where.j;
-      node.k = where.k;
-      node.cell = other.grid.polynomial(where.i, where.j, where.k);
-    }
-    const double phi = node.cell.value(where.x, where.y, where.z);
-    if (!(phi < 0)) return next_check_after(phi * other.slope);
-    const Vec3 gradient_body =
-        other.grid.inverse_spacing * node.cell.gradient(where.x, where.y, where.z);
-    touches.push_back({node.node, phi, slave.rotation * gradient_body,
-                       master.rotation * node.place_body, node.area});
-    return check_always;
+  const NodeTarget& target = list_.partner().target;
+  return list_.look_at_others(path_length, [&](NearNode& node) {
+    Touch touch;
+    const double clearance = test(target, node, touch, counters);
+    if (clearance != check_always) return path_length + clearance;
+    found.push_back({touch, node});
+    return check_never;
   });
 }
 
@@ -110,13 +83,13 @@ bool NearList::still_complete(const RelativePose& at, double master_radius, doub
 
 void NearList::make(const ShapeView& master, const ShapeView& slave, const RelativePose& at,
                     double path_length, double margin, PointFilter filter,
-                    ContactCounters& counters) {
-  struct Found {
+                    std::span<const NodeIndex> touching, ContactCounters& counters) {
+  struct Near {
     NodeIndex node;
     double clearance;
   };
   // Scratch of this thread. A cluster's bound: no node of it has less clearance.
-  thread_local std::vector<Found> found;
+  thread_local std::vector<Near> found;
   thread_local ClusterSpheres clusters;
   thread_local std::vector<float> bounds;
   found.clear();
@@ -169,17 +142,17 @@ void NearList::make(const ShapeView& master, const ShapeView& slave, const Relat
   ++counters.lists_made;
   counters.listed_nodes += found.size();
 
-  list_.restart({.both_radii = master.bounding_radius + slave.bounding_radius,
-                 .radius_squared = slave.bounding_radius * slave.bounding_radius,
-                 .slope = slave.lipschitz > 0 ? 1 / slave.lipschitz : 0,
-                 .grid = slave.level_set},
-                at, path_length, rest, found.size());
+  list_.restart({master.bounding_radius + slave.bounding_radius, NodeTarget{slave}}, at,
+                path_length, rest, found.size());
+  auto touches = touching.begin();
   for (std::size_t n = 0; n < found.size(); ++n) {
     const NodeIndex node = found[n].node;
+    while (touches != touching.end() && *touches < node) ++touches;
+    const bool is_touching = touches != touching.end() && *touches == node;
     list_.set_node(
         n,
         {.place_body = master.nodes.position(node), .area = master.nodes.area[node], .node = node},
-        path_length + std::max(found[n].clearance, 0.0));
+        is_touching ? check_never : path_length + std::max(found[n].clearance, 0.0));
   }
 }
 

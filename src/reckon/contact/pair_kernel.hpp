@@ -44,21 +44,26 @@ struct RigidMotion {
   return {grain.position, grain.velocity, grain.angular_velocity_world};
 }
 
+/// Counts one touching node into what all touching nodes of a pair share. They must come in node
+/// order.
+inline void count_touch(PairContext& context, double area, double phi) {
+  const double volume = -area * phi;
+  const double squared = phi * phi;
+  ++context.touching;
+  context.total_area += area;
+  context.total_volume += volume;
+  context.third_moment += volume * squared;
+  context.fourth_moment -= volume * squared * phi;
+}
+
 /// Fills in what all touching nodes of a pair share.
 inline void count_touches(PairContext& context, std::span<const Touch> touches) {
-  context.touching = static_cast<std::uint32_t>(touches.size());
+  context.touching = 0;
   context.total_area = 0;
   context.total_volume = 0;
   context.third_moment = 0;
   context.fourth_moment = 0;
-  for (const Touch& touch : touches) {
-    const double volume = -touch.area * touch.phi;
-    const double squared = touch.phi * touch.phi;
-    context.total_area += touch.area;
-    context.total_volume += volume;
-    context.third_moment += volume * squared;
-    context.fourth_moment -= volume * squared * touch.phi;
-  }
+  for (const Touch& touch : touches) count_touch(context, touch.area, touch.phi);
 }
 
 /// Scales forces, moments and energies.

@@ -97,13 +97,50 @@ class VerletNodeList {
     return head.touching > 0 ? check_always : std::min(head.earliest_check, head.complete_until);
   }
 
+  /// The same where nodes that touch are kept elsewhere: `test` returns check_never for such a
+  /// node, until take_back() gives it a next_check-up again.
+  template <class Test>
+  double look_at_others(double path_length, Test&& test) {
+    Head& head = *block_;
+    if (!(path_length < head.earliest_check)) {
+      Node* const node = nodes();
+      double* const next_check = next_checks();
+      head.earliest_check = check_never;
+      for (std::uint32_t n = 0; n < head.count; ++n) {
+        if (!(path_length < next_check[n])) next_check[n] = test(node[n]);
+        head.earliest_check = std::min(head.earliest_check, next_check[n]);
+      }
+    }
+    return std::min(head.earliest_check, head.complete_until);
+  }
+  /// Sets a node that is listed and its next_check-up.
+  void take_back(const Node& node, double next_check) {
+    if (!block_) return;
+    Node* const first = nodes();
+    Node* const at =
+        std::lower_bound(first, first + block_->count, node.node,
+                         [](const Node& n, NodeIndex index) { return n.node < index; });
+    if (at == first + block_->count || at->node != node.node) return;
+    *at = node;
+    next_checks()[at - first] = next_check;
+    block_->earliest_check = std::min(block_->earliest_check, next_check);
+  }
+
   /// Memory held.
   [[nodiscard]] std::size_t bytes() const { return block_ ? bytes_for(block_->capacity) : 0; }
 
   /// Asks the memory for the next checks if a look at this path length will read them. Reads the
   /// head.
   void prefetch_next_checks(double path_length) const {
-    if (block_ && !(path_length < block_->earliest_check)) __builtin_prefetch(next_checks());
+    if (!block_ || path_length < block_->earliest_check) return;
+    const double* const first = next_checks();
+    for (std::uint32_t n = 0; n < block_->count; n += 8) __builtin_prefetch(first + n);
+  }
+  void prefetch_head() const {
+    if (!block_) return;
+    for (std::size_t b = 0; b < sizeof(Head); b += 64) {
+      __builtin_prefetch(reinterpret_cast<const std::byte*>(block_.get()) + b);
+    }
   }
   /// Asks the memory for what the next look reads first.
   void prefetch() const {

@@ -76,10 +76,10 @@ void describe_assembly(const LoadedScene& scene, const PreparedScene& prepared, 
 void estimate_memory(RunPlan& plan) {
   constexpr std::uint64_t grain =
       2 * sizeof(GrainState) + sizeof(GrainFrame) + sizeof(Load) + sizeof(Vec3) + 64 /* bins */;
-  constexpr std::uint64_t pair =
-      sizeof(Pair) + sizeof(PairForce) + 2 * sizeof(SpringRange) + 2 * sizeof(PairsOfGrain::Entry);
-  constexpr std::uint64_t springs = 2 * nodes_per_pair * sizeof(NodeSpring);
-  plan.memory_grains = plan.grains * (grain + listed_per_grain * pair + pairs_per_grain * springs);
+  constexpr std::uint64_t pair = sizeof(Pair) + sizeof(PairForce) + 2 * sizeof(SlotLists::Slot) +
+                                 2 * sizeof(PairsOfGrain::Entry);
+  constexpr std::uint64_t nodes = nodes_per_pair * sizeof(NodeLanes) / lane_count;
+  plan.memory_grains = plan.grains * (grain + listed_per_grain * pair + pairs_per_grain * nodes);
   constexpr std::uint64_t membrane_node =
       3 * sizeof(MembraneNode) + 2 * sizeof(MembraneTouch) + 2 * sizeof(MembraneSpring);
   plan.memory_grains += plan.membrane_nodes * membrane_node;

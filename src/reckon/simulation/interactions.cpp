@@ -22,7 +22,7 @@ void Interactions::set_friction(double between_grains, std::span<const double> o
 
 void Interactions::rebuild(std::vector<Pair> pairs, std::span<const GrainFrame> frames,
                            std::size_t owned, const AdaptiveSkin& skin) {
-  grains_.rebuild(std::move(pairs), frames.size());
+  grains_.rebuild(std::move(pairs), frames.size(), owned);
   walls_.rebuild(frames.first(owned), skin);
   membrane_.forget();
 }

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
+#include <map>
 
 #include "reckon/contact/clearance.hpp"
 #include "reckon/contact/displacement_bound.hpp"
@@ -36,6 +38,50 @@ void expect_same_touches(const std::vector<Touch>& a, const std::vector<Touch>& 
   }
 }
 
+/// Keeps the nodes that touch, as the engine does.
+struct Touching {
+  NearList list;
+  std::map<NodeIndex, NearNode> nodes;
+  double next_check{check_always};
+
+  /// Whether nothing had to be looked at.
+  bool can_skip(double path_length) const { return nodes.empty() && path_length < next_check; }
+
+  std::vector<Touch> touches(const GrainFrame& master, const GrainFrame& slave, double path_length,
+                             PointFilter filter, ContactCounters& counters) {
+    const double both_radii = master.shape->bounding_radius + slave.shape->bounding_radius;
+    const double margin = rounding_margin(both_radii, path_length);
+    std::vector<Touch> all;
+    std::vector<NodeIndex> old;
+    const NodeTest test{master, slave, margin};
+    for (auto at = nodes.begin(); at != nodes.end();) {
+      Touch touch;
+      const bool meet = spheres_meet(master.position - slave.position, both_radii);
+      const double clearance =
+          meet ? test(NodeTarget{*slave.shape}, at->second, touch, counters) : 0;
+      if (clearance == check_always) {
+        all.push_back(touch);
+        old.push_back(at->first);
+        ++at;
+      } else {
+        list.take_back(at->second, path_length + clearance);
+        next_check = std::min(next_check, path_length + clearance);
+        at = nodes.erase(at);
+      }
+    }
+    if (path_length < next_check) return all;
+    std::vector<NearList::Found> found;
+    next_check = list.find_touches(master, slave, path_length, filter, old, found, counters);
+    for (const NearList::Found& f : found) {
+      EXPECT_TRUE(nodes.emplace(f.node.node, f.node).second);
+      all.push_back(f.touch);
+    }
+    std::sort(all.begin(), all.end(),
+              [](const Touch& a, const Touch& b) { return a.node < b.node; });
+    return all;
+  }
+};
+
 /// Two grains wander about each other in strides from a hundred-thousandth of their size to half
 /// of it, sometimes together. The list must find what the plain finder finds, and must never let
 /// the pair sleep through a touch. In every other walk the shapes of the list are bands.
@@ -66,8 +112,7 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
     RandomMotion a{random, frames[0], {}};
     RandomMotion b{random, frames[1], {0.9 * contact, 0, 0}};
     DisplacementBound displacements;
-    NearList list;
-    double next_check = check_always;
+    Touching touching;
     for (int step = 0; step < 400; ++step) {
       const double stride = size * std::exp2(random.uniform(-17, -1));
       const Vec3 towards = frames[1].position - frames[0].position;
@@ -86,18 +131,18 @@ TEST(NearList, MissesNoTouchWhateverTheMotion) {
       const double path_length = displacements.path_lengths()[0] + displacements.path_lengths()[1];
       std::vector<Touch> expected;
       find_touches(frames[0], frames[1], expected);
-      if (path_length < next_check) {
+      if (touching.can_skip(path_length)) {
         ASSERT_TRUE(expected.empty()) << "walk " << walk << " step " << step;
         ++slept;
         continue;
       }
-      std::vector<Touch> found;
       std::vector<GrainFrame> seen = frames;
       if (walk % 2 == 1) {
         seen[0].shape = &bands[form_a];
         seen[1].shape = &bands[form_b];
       }
-      next_check = list.find_touches(seen[0], seen[1], path_length, filter, found, counters);
+      const std::vector<Touch> found =
+          touching.touches(seen[0], seen[1], path_length, filter, counters);
       expect_same_touches(found, expected);
       if (HasFatalFailure()) FAIL() << "walk " << walk << " step " << step;
       touched += expected.empty() ? 0U : 1U;
@@ -115,19 +160,17 @@ TEST(NearList, LooksSeldomAtWhatApproachesSlowly) {
   std::vector<GrainFrame> frames{{GrainId{0}, &view}, {GrainId{1}, &view}};
   frames[1].position = {2.5, 0, 0};
   DisplacementBound displacements;
-  NearList list;
+  Touching touching;
   ContactCounters counters;
-  double next_check = check_always;
   int looks = 0;
-  std::vector<Touch> touches;
-  while (touches.empty()) {
+  while (touching.nodes.empty()) {
     frames[1].position.x -= 1e-4;
     displacements.follow(frames);
     const double path_length = displacements.path_lengths()[0] + displacements.path_lengths()[1];
-    if (path_length < next_check) continue;
+    if (touching.can_skip(path_length)) continue;
     ++looks;
-    next_check = list.find_touches(frames[0], frames[1], path_length,
-                                   point_filter(SimdLevel::automatic), touches, counters);
+    touching.touches(frames[0], frames[1], path_length, point_filter(SimdLevel::automatic),
+                     counters);
   }
   EXPECT_LT(frames[1].position.x, 2.01);
   EXPECT_LT(looks, 100);
