@@ -88,7 +88,7 @@ void add_grains_export(CLI::App& grains) {
       }
       display.show(++done, shapes.size());
     }
-    fmt::print("{}: {} grains\n", options->folder, human_count(shapes.size()));
+    fmt::print("{}: {}\n", options->folder, counted(shapes.size(), "grain"));
   });
 }
 

@@ -38,7 +38,7 @@ void add_grains_legacy(CLI::App& grains, const CommandWords& words) {
           options->input, parse_length("--voxel", options->voxel),
           options->keep_radius ? LegacyRadius::as_in_file : LegacyRadius::enclosing);
       save_library(options->output, library, provenance_of(words, {options->input}));
-      fmt::print("{}: {} grains\n", options->output, human_count(library.size()));
+      fmt::print("{}: {}\n", options->output, counted(library.size(), "grain"));
     });
   }
   CLI::App* command = grains.add_subcommand(
@@ -53,7 +53,7 @@ void add_grains_legacy(CLI::App& grains, const CommandWords& words) {
   command->callback([=] {
     const ShapeLibrary library = load_library(options->input);
     save_legacy_folder(options->output, library);
-    fmt::print("{}: {} files\n", options->output, human_count(library.size()));
+    fmt::print("{}: {}\n", options->output, counted(library.size(), "file"));
   });
 }
 

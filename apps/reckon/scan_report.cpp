@@ -163,7 +163,7 @@ void ScanReport::segmented(const Segmentation& scan, ScanStage last) {
     json_.value("blocks", blocks.blocks);
     json_.value("disputed_voxels", blocks.disputed);
     json_.value("pieces_joined", scan.joined);
-    fmt::print("split      {} pieces were joined again at wide necks\n", human_count(scan.joined));
+    fmt::print("split      {} joined again at wide necks\n", counted(scan.joined, "piece"));
   }
   if (last >= ScanStage::choose) {
     fmt::print("grains     {} found; {} cut off by the border and {} tiny ones dropped, {} kept\n",

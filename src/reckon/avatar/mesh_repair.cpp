@@ -15,6 +15,7 @@
 #include "reckon/avatar/mesh_parts.hpp"
 #include "reckon/avatar/mesh_validation.hpp"
 #include "reckon/avatar/triangle_bvh.hpp"
+#include "reckon/text/human.hpp"
 
 namespace reckon {
 namespace {
@@ -189,10 +190,6 @@ std::size_t absorb_flat(TriangleMesh& mesh) {
   return absorbed;
 }
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 }  // namespace
 
 std::vector<std::string> MeshRepair::text() const {
@@ -201,15 +198,14 @@ std::vector<std::string> MeshRepair::text() const {
     if (count > 0) lines.push_back(std::move(line));
   };
   add(corners.merged, corners.text());
-  add(doubled_triangles, fmt::format("removed {} that were there twice",
-                                     counted(doubled_triangles, "triangle", "triangles")));
-  add(fragments,
-      fmt::format("removed {}, the largest with {:.2g} % of the surface",
-                  counted(fragments, "loose fragment", "loose fragments"), 100 * fragments_area));
+  add(doubled_triangles,
+      fmt::format("removed {} that were there twice", counted(doubled_triangles, "triangle")));
+  add(fragments, fmt::format("removed {}, the largest with {:.2g} % of the surface",
+                             counted(fragments, "loose fragment"), 100 * fragments_area));
   add(pinched_triangles, fmt::format("removed {} at corners where two sheets meet",
-                                     counted(pinched_triangles, "triangle", "triangles")));
+                                     counted(pinched_triangles, "triangle")));
   add(turned_triangles,
-      fmt::format("turned {} to face outward", counted(turned_triangles, "triangle", "triangles")));
+      fmt::format("turned {} to face outward", counted(turned_triangles, "triangle")));
   double closed = 0;
   std::size_t longest = 0;
   for (const FilledHole& hole : holes) {
@@ -218,9 +214,8 @@ std::vector<std::string> MeshRepair::text() const {
   }
   add(holes.size(),
       fmt::format("closed {}, the longest of {} edges, with {:.2g} % of the surface in all",
-                  counted(holes.size(), "hole", "holes"), longest, 100 * closed / surface_area));
-  add(flat_triangles,
-      fmt::format("absorbed {} without area", counted(flat_triangles, "triangle", "triangles")));
+                  counted(holes.size(), "hole"), longest, 100 * closed / surface_area));
+  add(flat_triangles, fmt::format("absorbed {} without area", counted(flat_triangles, "triangle")));
   return lines;
 }
 

@@ -107,7 +107,7 @@ std::string paragraph(const StageFinding& f) {
 
 std::string stage_note(const std::string& name, std::uint64_t steps, bool in_time,
                        const Measurement& measurement, const SampleMeasurement& sample) {
-  std::string text = fmt::format("stage {} ended after {} steps", name, steps);
+  std::string text = fmt::format("stage {} ended after {}", name, counted(steps, "step"));
   if (!in_time) text += ", its time being over before its goal was reached";
   text += fmt::format(": unbalanced ratio {:.2g}", measurement.unbalanced_ratio);
   if (sample.enclosed) {

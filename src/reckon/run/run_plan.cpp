@@ -202,9 +202,8 @@ std::string plan_text(const RunPlan& plan) {
   const auto line = [&](std::string_view name, const std::string& value) {
     text += fmt::format("  {:<12} {}\n", name, value);
   };
-  line("grains",
-       fmt::format("{}, of {} of the library's {} shapes, {:.4g} kg", human_count(plan.grains),
-                   plan.shapes_in_use, plan.shapes, plan.solid_mass));
+  line("grains", fmt::format("{}, with {} of the library's {}, {:.4g} kg", human_count(plan.grains),
+                             plan.shapes_in_use, counted(plan.shapes, "shape"), plan.solid_mass));
   if (plan.density_scaling != 1) {
     line("inertia", fmt::format("SCALED: grains move as if {:.4g} times denser; time step {:.3g} "
                                 "times longer",
@@ -226,16 +225,14 @@ std::string plan_text(const RunPlan& plan) {
          fmt::format("{} nodes where its mould is now; {:.3g} kg/m^2, for the time step",
                      human_count(plan.membrane_nodes), plan.membrane_areal_mass));
   }
-  line("bins",
-       fmt::format("{} in use, {:.4g} m wide; {} pairs listed at the start",
-                   human_count(plan.occupied_bins), plan.bin_edge, human_count(plan.listed_pairs)));
-  line("at start",
-       plan.contacts == 0
-           ? std::string{"nothing touches"}
-           : fmt::format("{} contacts, deepest overlap {:.3g} m ({:.2g} of the smallest "
-                         "grain)",
-                         human_count(plan.contacts), plan.deepest_overlap,
-                         plan.deepest_overlap / plan.smallest_diameter));
+  line("bins", fmt::format("{} in use, {:.4g} m wide; {} listed at the start",
+                           human_count(plan.occupied_bins), plan.bin_edge,
+                           counted(plan.listed_pairs, "pair")));
+  line("at start", plan.contacts == 0
+                       ? std::string{"nothing touches"}
+                       : fmt::format("{}, deepest overlap {:.3g} m ({:.2g} of the smallest grain)",
+                                     counted(plan.contacts, "contact"), plan.deepest_overlap,
+                                     plan.deepest_overlap / plan.smallest_diameter));
   constexpr double deep = 0.2;  // of the smallest grain
   if (plan.deepest_overlap > deep * plan.smallest_diameter) {
     line("", "DEEP: grains begin inside each other or beyond a wall, and will be thrown out");
@@ -277,11 +274,10 @@ std::string plan_text(const RunPlan& plan) {
       line("duration", "not known: no steps were timed");
       return text;
     }
-    line("duration", fmt::format("about {} on {} thread{}", human_duration(plan.duration),
-                                 plan.threads, plan.threads == 1 ? "" : "s"));
-    line("", fmt::format("from {} steps really made in memory, {:.3g} ms each; steps with more "
-                         "contacts take longer",
-                         plan.timed_steps, 1e3 * plan.seconds_per_step));
+    line("duration", fmt::format("about {} on {}", human_duration(plan.duration),
+                                 counted(static_cast<std::uint64_t>(plan.threads), "thread")));
+    line("", fmt::format("from {} in memory, {:.3g} ms each; steps with more contacts take longer",
+                         counted(plan.timed_steps, "step"), 1e3 * plan.seconds_per_step));
   }
   return text;
 }

@@ -62,10 +62,10 @@ std::vector<StagePlan> plan_stages(const LoadedScene& scene, double time_step) {
 }
 
 std::vector<std::string> stage_lines(const StagePlan& plan, double time_step) {
-  std::vector<std::string> lines{
-      fmt::format("{}: {}{} steps ({:.4g} s); {}", plan.name, plan.has_goal ? "at most " : "",
-                  human_count(plan.most_steps), static_cast<double>(plan.most_steps) * time_step,
-                  plan.controls.empty() ? "walls stand" : plan.controls)};
+  std::vector<std::string> lines{fmt::format(
+      "{}: {}{} ({:.4g} s); {}", plan.name, plan.has_goal ? "at most " : "",
+      counted(plan.most_steps, "step"), static_cast<double>(plan.most_steps) * time_step,
+      plan.controls.empty() ? "walls stand" : plan.controls)};
   if (plan.pace) {
     const StagePlan::Pace& pace = *plan.pace;
     const bool slow = pace.inertial_number <= quasi_static_inertial_number;

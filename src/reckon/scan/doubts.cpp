@@ -14,6 +14,7 @@
 #include "reckon/core/exact_sum.hpp"
 #include "reckon/math/portable.hpp"
 #include "reckon/scan/image_filters.hpp"
+#include "reckon/text/human.hpp"
 
 namespace reckon {
 namespace {
@@ -107,9 +108,9 @@ std::vector<Doubt> doubtful_joins(const std::vector<Waist>& waists) {
 std::vector<std::string> check_doubts(const std::vector<Doubt>& splits, std::size_t grains) {
   if (20 * splits.size() <= grains) return {};
   return {
-      fmt::format("{} pairs of grains face each other over a wide area, like halves of one "
-                  "grain along a crack",
-                  splits.size())};
+      fmt::format("{} that may be two halves of one grain along a crack: they face each other over "
+                  "a wide area",
+                  counted(splits.size(), "pair"))};
 }
 
 std::vector<std::string> check_packing(const ScannedAssembly& assembly,
@@ -145,22 +146,22 @@ std::vector<std::string> check_packing(const ScannedAssembly& assembly,
   }
   if (!off.empty()) {
     remarks.push_back(fmt::format(
-        "{} avatars have a volume more than 2 % off that of their gray values ({}): their gray is "
-        "not that of one solid in void, or they are in pieces",
-        off.size(), names_of(off)));
+        "{} with a volume more than 2 % off that of the gray values ({}): the gray is not that of "
+        "one solid in void, or the grain is in pieces",
+        counted(off.size(), "avatar"), names_of(off)));
   }
   if (!faint.empty()) {
     remarks.push_back(fmt::format(
-        "{} grains are darker than three quarters of the step from void to solid ({}): another "
-        "mineral, or shading. Others like them may be missing",
-        faint.size(), names_of(faint)));
+        "{} darker than three quarters of the step from void to solid ({}): another mineral, or "
+        "shading. Other such grains may be missing",
+        counted(faint.size(), "grain"), names_of(faint)));
   }
   if (count < 20) return remarks;
   if (10 * alone.size() > count) {
     remarks.push_back(fmt::format(
-        "{} of {} grains have no neighbour within {} voxels ({}), as no packing has: neighbours "
-        "are missing, or the threshold is too high",
-        alone.size(), count, contact_reach, names_of(alone)));
+        "{} of {} without a neighbour within {} voxels ({}), which no packing has: neighbours are "
+        "missing, or the threshold is too high",
+        alone.size(), counted(count, "grain"), contact_reach, names_of(alone)));
   }
   const double mean = static_cast<double>(contacts) / static_cast<double>(count);
   if (mean < 2 || mean > 14) {
@@ -179,15 +180,15 @@ std::vector<std::string> check_packing(const ScannedAssembly& assembly,
   }
   if (!large.empty()) {
     remarks.push_back(
-        fmt::format("{} grains have more than six times the median volume ({}): they "
-                    "may be several, or a piece of a wall",
-                    large.size(), names_of(large)));
+        fmt::format("{} of more than six times the median volume ({}): several grains in one, or "
+                    "a piece of a wall",
+                    counted(large.size(), "grain"), names_of(large)));
   }
   if (small.size() * 20 > count) {
     remarks.push_back(
-        fmt::format("{} grains have less than a twelfth of the median volume ({}): "
-                    "they may be pieces",
-                    small.size(), names_of(small)));
+        fmt::format("{} of less than a twelfth of the median volume ({}): pieces of grains, "
+                    "perhaps",
+                    counted(small.size(), "grain"), names_of(small)));
   }
   return remarks;
 }

@@ -15,6 +15,7 @@
 #include "reckon/scan/doubts.hpp"
 #include "reckon/scan/image_filters.hpp"
 #include "reckon/scan/label_pieces.hpp"
+#include "reckon/text/human.hpp"
 
 namespace reckon {
 namespace {
@@ -264,9 +265,9 @@ class Segmenter {
     }
     if (touching == 0) return;
     remark(
-        {fmt::format("{} grains touch what lies outside; about one percent of their volume "
+        {fmt::format("{} at the border of the specimen; about one percent of the volume of each "
                      "may be missing there",
-                     touching)});
+                     counted(touching, "grain"))});
   }
 
   void denoise() {

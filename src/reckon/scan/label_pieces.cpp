@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Sand Reckoner contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reckon/scan/label_pieces.hpp"
+#include "reckon/text/human.hpp"
 
 #include <fmt/format.h>
 
@@ -113,16 +114,15 @@ std::vector<std::string> label_remarks(const std::vector<LabelledGrain>& grains,
   for (auto& [label, voxels] : sizes) {
     if (voxels.size() < 2) continue;
     std::sort(voxels.rbegin(), voxels.rend());
-    std::string text = fmt::format("label {}: {} pieces of", label, voxels.size());
+    std::string text = fmt::format("label {}: {} of", label, counted(voxels.size(), "piece"));
     for (std::size_t n = 0; n < std::min<std::size_t>(voxels.size(), 4); ++n) {
       text += fmt::format("{} {}", n > 0 ? "," : "", voxels[n]);
     }
     parts.push_back(text + (voxels.size() > 4 ? ", ... voxels" : " voxels"));
   }
   if (!parts.empty()) {
-    std::string text =
-        fmt::format("{} labels have several pieces; each piece is a grain of its own ({}",
-                    parts.size(), parts.front());
+    std::string text = fmt::format("{} of several pieces; each piece is a grain of its own ({}",
+                                   counted(parts.size(), "label"), parts.front());
     for (std::size_t n = 1; n < std::min(parts.size(), most_listed); ++n) text += "; " + parts[n];
     remarks.push_back(text + (parts.size() > most_listed ? "; ...)" : ")"));
   }

@@ -46,7 +46,7 @@ constexpr std::array usual_symbols{Symbol{"kn", "normal_stiffness"},
 std::string advice_on_unknown_key(const std::string& name, std::span<const std::string> known) {
   if (const auto near = nearest_name(name, known)) return fmt::format("Did you mean `{}`?", *near);
   std::vector<std::string> homes;
-  const SceneSchema schema = scene_schema();
+  static const SceneSchema schema = scene_schema();
   for (const SchemaRow& row : schema.rows) {
     if (row.name != name) continue;
     const bool is_table = row.table.empty() && row.type.ends_with("table");

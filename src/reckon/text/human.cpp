@@ -46,6 +46,10 @@ std::string human_count(std::uint64_t count) {
   return out;
 }
 
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", human_count(count), noun, count == 1 ? "" : "s");
+}
+
 std::string human_beside(double value, double limit) {
   constexpr int most_digits = 17;
   for (int digits = 2; digits < most_digits; ++digits) {

@@ -14,6 +14,8 @@ namespace reckon {
 [[nodiscard]] std::string human_duration(double seconds);
 /// "12,345,678"
 [[nodiscard]] std::string human_count(std::uint64_t count);
+/// "1 grain", "12,345 grains": for nouns whose plural ends in s.
+[[nodiscard]] std::string counted(std::uint64_t count, std::string_view noun);
 /// A number with as many digits, two at least, as show on which side of a limit it lies.
 [[nodiscard]] std::string human_beside(double value, double limit);
 /// A word of a command that can be pasted into a shell, in quotes if it needs them.
