@@ -51,7 +51,9 @@ HWY_INLINE void gather(std::span<const GrainFrame> frames, const PairImage* imag
   }
 }
 
-HWY_INLINE bool is_within_cell(double place) { return (place >= 0) & (place < 1); }
+// Conditions as numbers, whose product is their conjunction: no branch, one choice each.
+HWY_INLINE double flag(bool condition) { return condition ? 1.0 : 0.0; }
+HWY_INLINE double is_within_cell(double place) { return flag(place >= 0) * flag(place < 1); }
 
 HWY_INLINE void place_block(const NodeLanes& HWY_RESTRICT lanes,
                             const LaneFrames& HWY_RESTRICT master,
@@ -83,10 +85,9 @@ HWY_INLINE void place_block(const NodeLanes& HWY_RESTRICT lanes,
     const RigidMotion master_motion{master.position[n], master.velocity[n],
                                     master.angular_velocity[n]};
     const RigidMotion slave_motion{slave.position[n], slave.velocity[n], slave.angular_velocity[n]};
-    const bool fit = is_within_cell(x) & is_within_cell(y) & is_within_cell(z) & (phi < 0) &
-                     (squared_norm(point) < lanes.radius_squared[n]) &
-                     (squared_norm(offset) < lanes.both_radii_squared[n]);
-    fits[n] = fit ? 1.0 : 0.0;
+    fits[n] = is_within_cell(x) * is_within_cell(y) * is_within_cell(z) * flag(phi < 0) *
+              flag(squared_norm(point) < lanes.radius_squared[n]) *
+              flag(squared_norm(offset) < lanes.both_radii_squared[n]);
     touches.phi[n] = phi;
     touches.area[n] = lanes.area[n];
     touches.gradient.set(n, slave_rotation * gradient_body);
