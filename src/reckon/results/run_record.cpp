@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <ctime>
 #include <filesystem>
 #include <system_error>
@@ -63,6 +64,10 @@ std::string record_text(const RunRecord& record) {
   json.value("status", record.status);
   if (!record.message.empty()) json.value("message", record.message);
   if (record.verdict) write_verdict(json, *record.verdict);
+  if (!record.coarse_nodes.text.empty()) {
+    json.value("coarse_nodes", record.coarse_nodes.text);
+    json.value("unseen_overlap_ratio", record.coarse_nodes.unseen);
+  }
   json.value("scene", record.scene);
   json.value("grains", record.grains);
   json.value("shapes", record.shapes);
@@ -138,6 +143,18 @@ std::string recorded_text(const std::filesystem::path& path, std::string_view ke
 
 std::string recorded_status(const std::filesystem::path& path) {
   return recorded_text(path, "status");
+}
+
+RecordedSpacing recorded_spacing(const std::filesystem::path& path) {
+  RecordedSpacing spacing{recorded_text(path, "coarse_nodes")};
+  if (spacing.text.empty()) return spacing;
+  const std::string record = read_file(path);
+  constexpr std::string_view key = "\n  \"unseen_overlap_ratio\": ";
+  const std::size_t at = record.find(key);
+  if (at == std::string::npos) return spacing;
+  const char* begin = record.data() + at + key.size();
+  std::from_chars(begin, record.data() + record.size(), spacing.unseen);
+  return spacing;
 }
 
 std::string recorded_message(const std::filesystem::path& path) {

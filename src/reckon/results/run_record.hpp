@@ -35,7 +35,8 @@ struct RunRecord {
   std::string status;                 ///< running, complete, at rest, interrupted, failed
   std::string message;                ///< of a failure
   std::optional<RunVerdict> verdict;  ///< once the session has ended
-  std::string started;                ///< this session [UTC]
+  RecordedSpacing coarse_nodes;
+  std::string started;  ///< this session [UTC]
   std::string scene;
   std::uint64_t grains{0};
   std::uint64_t shapes{0};
@@ -56,6 +57,8 @@ void overwrite_run_record(const std::filesystem::path& path, const RunRecord& re
 
 /// The message of a failure in a run.json; empty where there is none.
 [[nodiscard]] std::string recorded_message(const std::filesystem::path& path);
+/// The spacing of nodes in a run.json that is too wide; an empty text where there is none.
+[[nodiscard]] RecordedSpacing recorded_spacing(const std::filesystem::path& path);
 /// The status in a run.json; empty where there is none.
 [[nodiscard]] std::string recorded_status(const std::filesystem::path& path);
 

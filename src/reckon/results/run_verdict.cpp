@@ -102,6 +102,13 @@ void check_overlap(const Evidence& evidence, RunVerdict& verdict) {
                           100 * overlap_limit));
 }
 
+/// The reported overlap is that of the nodes. What they cannot see must be small as well.
+void check_spacing(const RecordedSpacing& spacing, RunVerdict& verdict) {
+  if (spacing.text.empty()) return;
+  if (spacing.unseen > overlap_limit) return verdict.add("coarse_nodes", spacing.text);
+  verdict.notes.push_back(spacing.text);
+}
+
 void check_grains(const Evidence& evidence, RunVerdict& verdict) {
   if (const auto worst = evidence.worst("outside", 0)) {
     verdict.add("grains_outside",
@@ -198,6 +205,7 @@ RunVerdict verdict_on(const RunEvidence& evidence) {
   RunVerdict verdict;
   if (evidence.status == "failed") verdict.add("failed", "the run failed: " + evidence.message);
   const Evidence found{evidence};
+  check_spacing(evidence.coarse_nodes, verdict);
   for (const auto& check : checks) check(found, verdict);
   return verdict;
 }
@@ -211,7 +219,8 @@ RunVerdict verdict_of(const RunFolder& folder) {
     require_columns(file, history, quantity_groups(make_walls(scene)));
   }
   const std::filesystem::path record = folder.own(folder.json());
-  return verdict_on({scene, history, recorded_status(record), recorded_message(record)});
+  return verdict_on({scene, history, recorded_status(record), recorded_message(record),
+                     recorded_spacing(record)});
 }
 
 std::string verdict_text(const RunVerdict& verdict) {

@@ -31,6 +31,12 @@ struct RunVerdict {
   void add(std::string code, std::string text);
 };
 
+/// Nodes that lie too far apart, as a run has recorded it; see scene/node_spacing.hpp.
+struct RecordedSpacing {
+  std::string text;  ///< empty: they are close enough
+  double unseen{0};  ///< depth to which a partner sinks in without a force, over its thickness
+};
+
 /// The history and the record of a run.
 struct RunEvidence {
   const SceneConfig& scene;
@@ -39,9 +45,11 @@ struct RunEvidence {
   /// reached yet.
   std::string status{};
   std::string message{};  ///< of a failure
+  RecordedSpacing coarse_nodes{};
 };
 
-/// Tests for negative void ratios, deep overlaps, grains that are outside or have left a sample,
+/// Tests for negative void ratios, deep overlaps, overlaps that no node
+/// sees, grains that are outside or have left a sample,
 /// rates that are not quasi-static, a required rest that was not reached, and a failure. Columns
 /// that the history lacks, as in runs of earlier versions, give no reason.
 [[nodiscard]] RunVerdict verdict_on(const RunEvidence& evidence);

@@ -429,7 +429,7 @@ RunReport run_scene(const SceneReading& reading, const LoadedScene& scene,
   std::optional<RunFiles> files;
   on_root(ranks, [&] {
     files.emplace(reading, shared, prepared, steps, options, hooks);
-    if (const auto coarse = coarse_nodes(shared)) files->note("COARSE: " + *coarse);
+    if (const auto coarse = coarse_nodes(shared)) files->note_coarse(*coarse);
     for (const std::string& warning : scene.warnings) files->note("WARNING: " + warning);
     const TimeStepChoice step = choose_time_step(scene.config, scene.grains, scene.shapes);
     if (step.is_too_long()) files->note(too_long_text(step));

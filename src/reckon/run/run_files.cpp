@@ -56,6 +56,11 @@ void RunFiles::note(const std::string& text) {
   if (hooks_.note) hooks_.note(text);
 }
 
+void RunFiles::note_coarse(const CoarseNodes& coarse) {
+  record_.coarse_nodes = {coarse.text, coarse.unseen};
+  note("COARSE: " + coarse.text);
+}
+
 void RunFiles::begin(HistoryRow at_start) {
   checkpoint_.energy_at_start = at_start.measurement.energy.total();
   append_history(at_start);
@@ -121,7 +126,10 @@ void RunFiles::write_record(const std::string& status, const RunProgress& progre
 }
 
 RunVerdict RunFiles::judge(const SceneConfig& scene, const std::string& status) {
-  record_.verdict = verdict_on({scene, history(), status});
+  record_.verdict = verdict_on({.scene = scene,
+                                .history = history(),
+                                .status = status,
+                                .coarse_nodes = record_.coarse_nodes});
   return *record_.verdict;
 }
 

@@ -17,6 +17,7 @@
 #include "reckon/run/run.hpp"
 #include "reckon/run/run_outputs.hpp"
 #include "reckon/run/run_start.hpp"
+#include "reckon/scene/node_spacing.hpp"
 #include "reckon/simulation/performance.hpp"
 
 namespace reckon {
@@ -36,9 +37,10 @@ class RunFiles {
     return checkpoint_.goal_met_since;
   }
 
-  void note(const std::string& text);       ///< in the log and to the caller
-  void log(const std::string& text) const;  ///< only in the log
-  void begin(HistoryRow at_start);          ///< the first row of a fresh run
+  void note(const std::string& text);           ///< in the log and to the caller
+  void note_coarse(const CoarseNodes& coarse);  ///< likewise, and in the verdict
+  void log(const std::string& text) const;      ///< only in the log
+  void begin(HistoryRow at_start);              ///< the first row of a fresh run
   /// Fills in the energy at the start.
   void append_history(HistoryRow row);
   /// Fields and checkpoints are written in the background; a later call throws their errors.

@@ -212,7 +212,7 @@ std::string plan_text(const RunPlan& plan) {
   line("sizes", fmt::format("bounding spheres of {:.4g} to {:.4g} m across", plan.smallest_diameter,
                             plan.largest_diameter));
   line("nodes", fmt::format("{} on all grains", human_count(plan.nodes)));
-  if (plan.coarse_nodes) line("", "COARSE: " + *plan.coarse_nodes);
+  if (plan.coarse_nodes) line("", "COARSE: " + plan.coarse_nodes->text);
   line("walls", fmt::format("{}", plan.walls));
   if (plan.cell_size) {
     line("cell", fmt::format("periodic along {}, {:.4g} x {:.4g} x {:.4g} m, {:.1f} % "
@@ -294,7 +294,7 @@ std::string plan_json(const RunPlan& plan) {
   json.value("shapes", plan.shapes);
   json.value("shapes_in_use", plan.shapes_in_use);
   json.value("nodes", plan.nodes);
-  if (plan.coarse_nodes) json.value("coarse_nodes", *plan.coarse_nodes);
+  if (plan.coarse_nodes) json.value("coarse_nodes", plan.coarse_nodes->text);
   json.value("walls", plan.walls);
   if (plan.cell_size) {
     json.value("cell_periodic", plan.cell_axes);

@@ -9,6 +9,7 @@
 
 #include "reckon/run/overlap_forecast.hpp"
 #include "reckon/run/stage_plan.hpp"
+#include "reckon/scene/node_spacing.hpp"
 #include "reckon/simulation/setup.hpp"
 
 namespace reckon {
@@ -25,7 +26,7 @@ struct RunPlan {
   double solid_mass{0};         ///< [kg]
   double density_scaling{1};    ///< see MaterialConfig
 
-  std::optional<std::string> coarse_nodes;  ///< see scene/node_spacing.hpp
+  std::optional<CoarseNodes> coarse_nodes;  ///< see scene/node_spacing.hpp
 
   std::uint64_t membrane_nodes{0};  ///< for its mould at the start
   std::optional<Vec3> cell_size;    ///< of a periodic cell [m]

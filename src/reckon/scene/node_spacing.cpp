@@ -15,6 +15,9 @@ namespace {
 constexpr double coarsest = 0.25;  // spacing over thickness: a ball sinks in by 2 % of itself
 constexpr double coarsest_at_edge = 0.2;  // an edge sinks into a face by half a spacing
 
+/// How deep a ball sinks in between the nodes, over its thickness.
+double unseen_by(double ratio) { return 0.4 * ratio * ratio; }
+
 /// What matters of a shape here.
 struct Grid {
   double spacing;    // between nodes [m]
@@ -91,7 +94,7 @@ Worst worst_alone(const std::vector<Grid>& grids, const std::vector<Count>& coun
 
 }  // namespace
 
-std::optional<std::string> coarse_nodes(const LoadedScene& scene) {
+std::optional<CoarseNodes> coarse_nodes(const LoadedScene& scene) {
   const ContactConfig& contact = scene.config.contact;
   std::vector<Grid> grids;
   grids.reserve(scene.shapes.size());
@@ -116,11 +119,12 @@ std::optional<std::string> coarse_nodes(const LoadedScene& scene) {
                        const std::string& also) {
     const double spacing = grids[worst.coarse].spacing;
     const double thickness = grids[worst.partner].thickness;
-    return fmt::format(
+    const std::string text = fmt::format(
         "nodes of shape {} lie {:.3g} m apart, and {} is {:.3g} m thick: it can sink in between "
         "them, and no force answers. Give shape {} at least {} nodes{}.",
         scene.shapes[worst.coarse].name, spacing, partner, thickness,
         scene.shapes[worst.coarse].name, nodes_for(worst.coarse, allowed * thickness), also);
+    return CoarseNodes{text, unseen_by(worst.ratio)};
   };
 
   if (contact.master != MasterRule::both) {
@@ -146,7 +150,9 @@ std::optional<std::string> coarse_nodes(const LoadedScene& scene) {
   for (Grid& grid : grids) grid.is_sphere = false;
   const Worst at_edge = worst_alone(grids, counts, true, coarsest_at_edge);
   if (at_edge.ratio <= coarsest_at_edge) return std::nullopt;
-  return "a ledge has an edge; " + say(at_edge, coarsest_at_edge, "the shape itself", "");
+  CoarseNodes found = say(at_edge, coarsest_at_edge, "the shape itself", "");
+  found.text = "a ledge has an edge; " + found.text;
+  return found;
 }
 
 }  // namespace reckon

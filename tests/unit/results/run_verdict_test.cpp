@@ -106,6 +106,21 @@ TEST(RunVerdict, OverlapBeyondTheLimit) {
   EXPECT_EQ(story.codes(), "");
 }
 
+TEST(RunVerdict, NodesThatCannotSeeAnOverlapBeyondTheLimit) {
+  const Story story;
+  const auto verdict = [&](double unseen) {
+    return verdict_on({.scene = story.scene,
+                       .history = story.table(),
+                       .status = "complete",
+                       .coarse_nodes = {"nodes lie apart", unseen}});
+  };
+  ASSERT_EQ(verdict(0.2).reasons.size(), 1U);
+  EXPECT_EQ(verdict(0.2).reasons[0].code, "coarse_nodes");
+  EXPECT_EQ(verdict(0.2).reasons[0].text, "nodes lie apart");
+  EXPECT_TRUE(verdict(0.03).valid());
+  EXPECT_EQ(verdict(0.03).notes, std::vector<std::string>{"nodes lie apart"});
+}
+
 TEST(RunVerdict, GrainsOutsideAndLost) {
   Story story;
   story.rows[40].measurement.outside = 17;

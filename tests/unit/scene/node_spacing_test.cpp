@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "reckon/avatar/library_file.hpp"
 #include "support/test_shapes.hpp"
 
@@ -37,10 +39,20 @@ const Shape& small() {
 TEST(NodeSpacing, OfTheLowerIdMustServeEveryGrainAfterIt) {
   const auto told = coarse_nodes(scene_of({large(), small()}, MasterRule::lower_id));
   ASSERT_TRUE(told);
-  EXPECT_NE(told->find("shape_0 lie 0.2"), std::string::npos) << *told;
-  EXPECT_NE(told->find("partner, shape shape_1"), std::string::npos) << *told;
-  EXPECT_NE(told->find("contact.master = \"both\""), std::string::npos) << *told;
+  EXPECT_NE(told->text.find("shape_0 lie 0.2"), std::string::npos) << told->text;
+  EXPECT_NE(told->text.find("partner, shape shape_1"), std::string::npos) << told->text;
+  EXPECT_NE(told->text.find("contact.master = \"both\""), std::string::npos) << told->text;
   EXPECT_FALSE(coarse_nodes(scene_of({small(), large()}, MasterRule::lower_id)));
+}
+
+TEST(NodeSpacing, GivesTheDepthThatNoNodeSees) {
+  const Shape ball = testing::sphere(1.0, 300);
+  const Shape grain = testing::sphere(0.1, 300);
+  const auto told = coarse_nodes(scene_of({ball, grain}, MasterRule::lower_id));
+  ASSERT_TRUE(told);
+  const double spacing_squared = 4 * std::numbers::pi / 300;
+  const double thickness = 0.2;
+  EXPECT_NEAR(told->unseen, 0.4 * spacing_squared / (thickness * thickness), 0.01);
 }
 
 TEST(NodeSpacing, ServesInAnyOrderWhereTheSmallerOrBothAreMasters) {
@@ -54,7 +66,7 @@ TEST(NodeSpacing, IsTooWideOnAShapeOfFewNodesOrAThinOne) {
   const Shape few = testing::bumpy_grain(1.0, 30, 16);
   const auto of_few = coarse_nodes(scene_of({few, few}, MasterRule::both));
   ASSERT_TRUE(of_few);
-  EXPECT_EQ(of_few->find("contact.master"), std::string::npos) << *of_few;
+  EXPECT_EQ(of_few->text.find("contact.master"), std::string::npos) << of_few->text;
   const Shape plate = testing::box({1, 1, 0.05}, 7, 0.02);
   EXPECT_TRUE(coarse_nodes(scene_of({plate, plate}, MasterRule::both)));
   EXPECT_FALSE(coarse_nodes(scene_of({plate, small()}, MasterRule::both)));  // whose nodes see it
@@ -79,7 +91,7 @@ TEST(NodeSpacing, MustBeFinerAtTheEdgeOfALedge) {
   scene.config.walls.push_back(wall);
   const auto told = coarse_nodes(scene);
   ASSERT_TRUE(told);
-  EXPECT_NE(told->find("ledge"), std::string::npos);
+  EXPECT_NE(told->text.find("ledge"), std::string::npos);
 }
 
 }  // namespace
