@@ -76,6 +76,7 @@ void ScaleCheck::check_coordinate(const std::string& key, const std::string& wha
                                   double coordinate) {
   const double rounding = std::numeric_limits<double>::epsilon() * coordinate / smallest_radius_;
   if (rounding > useless_rounding) {
+    resolves_positions_ = false;
     return fault_(key,
                   fmt::format("{} at {:.3g} m is beyond double precision: coordinates there are "
                               "{:.2g} m apart, but the smallest grain's radius is {:.3g} m",

@@ -24,6 +24,8 @@ class ScaleCheck {
   ScaleCheck(const LoadedScene& scene, double time_step, Fault fault, Warn warn);
 
   void run();
+  /// Whether positions and the distances between them mean something. Known after run().
+  [[nodiscard]] bool resolves_positions() const { return resolves_positions_; }
 
  private:
   void check_material();
@@ -39,6 +41,7 @@ class ScaleCheck {
   double time_step_;
   Fault fault_;
   Warn warn_;
+  bool resolves_positions_{true};
   double smallest_radius_;  // of the bounding spheres of grains [m]
 };
 

@@ -91,8 +91,11 @@ class Loader {
     std::vector<std::string> warnings;
     const auto to_warnings = [&](std::string text) { warnings.push_back(std::move(text)); };
     const double step = choose_time_step(scene.config, scene.grains, scene.shapes).step;
-    ScaleCheck{scene, step, to_faults, to_warnings}.run();
-    attempt("grains", [&] { StartCheck{scene, first_ids_, to_faults, to_warnings}.run(); });
+    ScaleCheck scale{scene, step, to_faults, to_warnings};
+    scale.run();
+    if (scale.resolves_positions()) {
+      attempt("grains", [&] { StartCheck{scene, first_ids_, to_faults, to_warnings}.run(); });
+    }
     scene.warnings = std::move(warnings);
   }
 

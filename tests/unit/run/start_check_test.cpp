@@ -139,6 +139,10 @@ TEST_F(StartCheckTest, CoordinatesBeyondDoublePrecisionAreRefused) {
   const auto faults = faults_of(at("1e15"));
   ASSERT_EQ(faults.size(), 1U);
   expect_parts(faults[0], {"grains: grain 0 at 1e+15 m is beyond double precision"});
+  const auto rounded_to_one_pose =
+      faults_of(scene(places("{position=[1e15,0,0]}, {position=[1.000000000000000001e15,0,0]}")));
+  ASSERT_EQ(rounded_to_one_pose.size(), 1U);
+  expect_parts(rounded_to_one_pose[0], {"is beyond double precision"});
   const auto cylinder = faults_of(scene(places("{position=[0,0,0]}"),
                                         "[[wall]]\nname = \"flat\"\ncylinder = { point = "
                                         "[1e15,0,0], axis = [0,0,1], radius = 2e15 }\n"));
