@@ -252,7 +252,18 @@ void save_library(const std::filesystem::path& path, const ShapeLibrary& library
   writer.finish();
 }
 
-ShapeLibrary load_library(const std::filesystem::path& path, double legacy_voxel) {
+namespace {
+
+/// A folder of `reckon grains from-scan` stands for the library in it.
+std::filesystem::path file_of_library(const std::filesystem::path& path) {
+  const std::filesystem::path within = path / "library.h5";
+  return std::filesystem::is_directory(path) && std::filesystem::exists(within) ? within : path;
+}
+
+}  // namespace
+
+ShapeLibrary load_library(const std::filesystem::path& file_or_folder, double legacy_voxel) {
+  const std::filesystem::path path = file_of_library(file_or_folder);
   if (std::filesystem::is_directory(path)) return load_legacy_folder(path, legacy_voxel);
   const LibraryReader reader{path};
   ShapeLibrary library;
@@ -270,8 +281,9 @@ struct LibrarySource::Impl {
   ShapeLibrary folder;  // where there is no file
 };
 
-LibrarySource::LibrarySource(const std::filesystem::path& path, double legacy_voxel)
+LibrarySource::LibrarySource(const std::filesystem::path& file_or_folder, double legacy_voxel)
     : impl_{std::make_unique<Impl>()} {
+  const std::filesystem::path path = file_of_library(file_or_folder);
   if (std::filesystem::is_directory(path)) {
     impl_->folder = load_legacy_folder(path, legacy_voxel);
   } else {

@@ -68,10 +68,12 @@ void save_library(const std::filesystem::path& path, const ShapeLibrary& library
 /// Throws Error when a file that is no shape library has this name: it is not replaced.
 void require_replaceable_library(const std::filesystem::path& path);
 
-/// All shapes of a library file, or of a folder of legacy morphology files (morph_1.dat,
-/// morph_2.dat, ... in numeric order; see legacy_morphology.hpp), in which a voxel is taken as
-/// `legacy_voxel` metres long. Every shape's digest and check_shape are verified.
-[[nodiscard]] ShapeLibrary load_library(const std::filesystem::path& path, double legacy_voxel = 1);
+/// All shapes of a library file, of the file library.h5 in a folder, or of a folder of legacy
+/// morphology files (morph_1.dat, morph_2.dat, ... in numeric order; see legacy_morphology.hpp), in
+/// which a voxel is taken as `legacy_voxel` metres long. Every shape's digest and check_shape are
+/// verified.
+[[nodiscard]] ShapeLibrary load_library(const std::filesystem::path& file_or_folder,
+                                        double legacy_voxel = 1);
 
 /// What is known of a shape before its grid and nodes are read.
 struct ShapeSummary {
@@ -86,7 +88,7 @@ struct ShapeSummary {
 /// folder of legacy files has no table, so it is read and held as a whole.
 class LibrarySource {
  public:
-  explicit LibrarySource(const std::filesystem::path& path, double legacy_voxel = 1);
+  explicit LibrarySource(const std::filesystem::path& file_or_folder, double legacy_voxel = 1);
   ~LibrarySource();
   LibrarySource(LibrarySource&&) noexcept;
   LibrarySource& operator=(LibrarySource&&) noexcept;

@@ -108,6 +108,14 @@ TEST_F(LibraryFile, SourcesAreHashedOneByOneOrByTheFolder) {
   test::expect_error([&] { (void)source_files(folder_ / "missing"); }, {"missing", "read"});
 }
 
+TEST_F(LibraryFile, AFolderStandsForTheLibraryInIt) {
+  save_library(folder_ / "library.h5", example());
+  const ShapeLibrary loaded = load_library(folder_);
+  ASSERT_EQ(loaded.size(), 3U);
+  expect_equal(loaded[2], example()[2]);
+  EXPECT_EQ(LibrarySource{folder_}.entry(1).name, example()[1].name);
+}
+
 TEST_F(LibraryFile, SomeShapesCanBeLoadedAlone) {
   save_library(file_, example());
   const std::vector<ShapeId> wanted{ShapeId{2}, ShapeId{0}, ShapeId{2}};
