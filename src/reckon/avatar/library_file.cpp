@@ -303,6 +303,10 @@ Provenance LibrarySource::provenance() const {
   return impl_->file ? impl_->file->provenance() : Provenance{};
 }
 
+bool LibrarySource::has_early_nodes() const {
+  return impl_->file && impl_->file->provenance().program.empty();
+}
+
 const Shape& LibrarySource::entry(std::size_t shape) const {
   return impl_->file ? impl_->file->table()[shape] : impl_->folder[shape];
 }

@@ -96,6 +96,9 @@ class LibrarySource {
   [[nodiscard]] std::size_t size() const;
   /// Empty for a folder, and for a file of a version before 4.
   [[nodiscard]] Provenance provenance() const;
+  /// Whether a version before 4 wrote the file, whose nodes may lie inside the surface and stop
+  /// short of sharp edges.
+  [[nodiscard]] bool has_early_nodes() const;
   /// A shape without its grid and nodes.
   [[nodiscard]] const Shape& entry(std::size_t shape) const;
   [[nodiscard]] ShapeSummary summary(std::size_t shape) const;

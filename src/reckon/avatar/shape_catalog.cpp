@@ -10,9 +10,10 @@
 
 namespace reckon {
 
-void ShapeCatalog::add(const std::filesystem::path& library, double legacy_voxel) {
+const LibrarySource& ShapeCatalog::add(const std::filesystem::path& library, double legacy_voxel) {
   libraries_.emplace_back(library, legacy_voxel);
   first_.push_back(first_.back() + libraries_.back().size());
+  return libraries_.back();
 }
 
 ShapeCatalog::Place ShapeCatalog::find(ShapeId shape) const {

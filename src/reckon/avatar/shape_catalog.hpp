@@ -13,7 +13,8 @@ namespace reckon {
 /// The shapes of several libraries, one library after another.
 class ShapeCatalog {
  public:
-  void add(const std::filesystem::path& library, double legacy_voxel);
+  /// Returns the library, until the next one is added.
+  const LibrarySource& add(const std::filesystem::path& library, double legacy_voxel);
 
   [[nodiscard]] std::size_t size() const { return first_.back(); }
   [[nodiscard]] ShapeSummary summary(ShapeId shape) const;

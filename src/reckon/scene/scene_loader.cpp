@@ -88,15 +88,14 @@ class Loader {
   /// What only shows where all else is right.
   void check_start(LoadedScene& scene) {
     const auto to_faults = [&](auto&&... text) { fault(text...); };
-    std::vector<std::string> warnings;
-    const auto to_warnings = [&](std::string text) { warnings.push_back(std::move(text)); };
+    const auto to_warnings = [&](std::string text) { warnings_.push_back(std::move(text)); };
     const double step = choose_time_step(scene.config, scene.grains, scene.shapes).step;
     ScaleCheck scale{scene, step, to_faults, to_warnings};
     scale.run();
     if (scale.resolves_positions()) {
       attempt("grains", [&] { StartCheck{scene, first_ids_, to_faults, to_warnings}.run(); });
     }
-    scene.warnings = std::move(warnings);
+    scene.warnings = std::move(warnings_);
   }
 
   void check_outflows(const LoadedScene& scene) {
@@ -113,12 +112,21 @@ class Loader {
     }
   }
 
+  void warn_of_early_nodes(const std::string& library) {
+    std::string text = fmt::format(
+        "the library {} was written by an older version, whose nodes may lie inside the surface "
+        "and stop short of sharp edges: boxes then tip too early, and corners sink in; make it "
+        "anew",
+        library);
+    if (std::ranges::find(warnings_, text) == warnings_.end()) warnings_.push_back(std::move(text));
+  }
+
   void load_set(const GrainsConfig& set, const std::string& path, LoadedScene& scene) {
     first_ids_.push_back(static_cast<std::uint32_t>(scene.grains.size()));
     if (set.library.empty()) return;  // its fault is known
     const std::size_t first_shape = shapes_.size();
     const bool loaded = attempt(path + ".library", [&] {
-      catalog_->add(set.library, set.voxel);
+      if (catalog_->add(set.library, set.voxel).has_early_nodes()) warn_of_early_nodes(set.library);
       for (std::size_t s = first_shape; s < catalog_->size(); ++s) {
         shapes_.push_back(catalog_->summary(ShapeId{static_cast<std::uint32_t>(s)}));
       }
@@ -291,6 +299,7 @@ class Loader {
   SceneReading& reading_;
   std::shared_ptr<ShapeCatalog> catalog_{std::make_shared<ShapeCatalog>()};
   std::vector<ShapeSummary> shapes_;
+  std::vector<std::string> warnings_;
   std::vector<std::uint32_t> first_ids_;  // of the grains of each [[grains]] table
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reckon/core/peak_memory.hpp"
+#include "reckon/core/seal.hpp"
 #include "reckon/run/run_plan.hpp"
 #include "reckon/simulation/time_step.hpp"
 #include "unit/run/run_scene_fixture.hpp"
@@ -152,6 +153,17 @@ TEST_F(StartCheckTest, CoordinatesBeyondDoublePrecisionAreRefused) {
                             "[[wall]]\nname = \"far\"\nplane = { point = [0,0,-1e15], normal = "
                             "[0,0,1] }\n")),
             Texts{});
+}
+
+TEST_F(StartCheckTest, ALibraryWithNodesOfAnOlderVersionIsNamedOnce) {
+  const std::string two_sets = scene(places("{position=[0,0,0]}")) +
+                               "[[grains]]\nlibrary = \"grains.h5\"\n" +
+                               places("{position=[0.01,0,0]}");
+  EXPECT_EQ(warnings_of(two_sets), Texts{});
+  write_seal(root_ / "grains.h5", "shape library", 3, root_ / "grains.h5");
+  const Texts warnings = warnings_of(two_sets);
+  ASSERT_EQ(warnings.size(), 1U);
+  expect_parts(warnings[0], {"grains.h5 was written by an older version", "make it anew"});
 }
 
 TEST_F(StartCheckTest, WhatTheTimeStepDoesNotResolveIsSaid) {
