@@ -81,6 +81,26 @@ TEST_F(FaultyDisk, ACallThatFailsOnceLeavesNothingWrong) {
   }
 }
 
+TEST_F(FaultyDisk, ALibraryIsWholeOrNotThere) {
+  const std::string command = "grains spheres grains.h5 -o scene.run.h5";
+  ASSERT_EQ(with_fault("write", 0, false, command).code, 0);
+  const std::string good = read_file(root_ / "scene.run.h5");
+  for (const char* call : {"write", "fsync", "close", "rename"}) {
+    std::uint64_t number = 1;
+    for (; number < 1000; number += 1 + number / 8) {
+      std::filesystem::remove(root_ / "scene.run.h5");
+      const Outcome outcome = with_fault(call, number, false, command);
+      const std::string what = call + (" " + std::to_string(number)) + ": " + outcome.err;
+      const bool there = std::filesystem::exists(root_ / "scene.run.h5");
+      EXPECT_EQ(there, outcome.code == 0) << what;
+      EXPECT_TRUE(!there || read_file(root_ / "scene.run.h5") == good) << what;
+      if (outcome.err.find("a call has failed") == std::string::npos) break;
+      EXPECT_TRUE(outcome.code != 0 || std::string{call} != "write") << what;
+    }
+    EXPECT_GT(number, 1U) << call << " was never made";
+  }
+}
+
 TEST_F(FaultyDisk, AFullDiskEndsTheRunAndIsNamed) {
   EXPECT_GT(fail_many("write", true), 20);
   std::filesystem::remove_all(root_ / "scene.run");
