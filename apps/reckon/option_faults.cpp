@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -167,17 +166,6 @@ std::string fault_of_value(const std::string& given) {
   return fmt::format("needs a value, and {} is none. A name that begins so: ./{}", given, given);
 }
 
-/// `--out sand.h5` would make a folder of that name.
-std::string fault_of_folder(const std::string& given) {
-  constexpr std::array<std::string_view, 7> endings{".h5",   ".csv", ".html", ".json",
-                                                    ".toml", ".stl", ".vtp"};
-  const auto ends_so = [&](std::string_view ending) { return given.ends_with(ending); };
-  const auto* const ending = std::find_if(endings.begin(), endings.end(), ends_so);
-  if (ending == endings.end()) return {};
-  return fmt::format("names a folder, and {} looks like a file. Write {}", given,
-                     given.substr(0, given.size() - ending->size()));
-}
-
 std::string fault_of_count(const std::string& given, bool may_be_negative) {
   if (is_whole_number(given) && given[0] == '-' && !may_be_negative) {
     return fmt::format("{} is not a whole number from 0 on", given);
@@ -197,7 +185,6 @@ void refuse_odd_values(CLI::App& root) {
     if (!option->get_lnames().empty() && option->get_items_expected_max() > 0) {
       refuse(fault_of_value);
     }
-    if (option->check_lname("out")) refuse(fault_of_folder);  // it takes a folder in all commands
     const std::string type = option->get_type_name();
     const std::string name = type.substr(0, type.find(':'));
     if (name == "FLOAT") refuse(fault_of_number);

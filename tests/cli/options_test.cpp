@@ -131,16 +131,6 @@ TEST_F(OptionsTest, AnOptionIsNoValueOfAnother) {
   EXPECT_FALSE(std::filesystem::exists(root_ / "--quiet"));
 }
 
-TEST_F(OptionsTest, AFolderIsNotNamedLikeAFile) {
-  EXPECT_EQ(refusal({"run", "scene.toml", "--out", "runs/a.h5"}),
-            "reckon: error: --out: names a folder, and runs/a.h5 looks like a file. Write runs/a\n"
-            "See: reckon run --help\n");
-  const std::string scan =
-      refusal({"grains", "from-scan", "no.tif", "--voxel", "1um", "-o", "n.h5"});
-  EXPECT_NE(scan.find("Write n\n"), std::string::npos) << scan;
-  EXPECT_FALSE(std::filesystem::exists(root_ / "n.h5"));
-}
-
 TEST_F(OptionsTest, DecimalCommasBetweenLengths) {
   for (const char* solid : {"--sphere=0,5mm", "--box=1,5mm,2mm,3mm"}) {
     EXPECT_NE(refusal({"grains", "solid", solid, "-o", "x.h5"}).find("decimals have a point"),
