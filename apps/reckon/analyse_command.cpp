@@ -41,7 +41,8 @@ void print(const RunAnalysis& done, const RunVerdict& verdict) {
   const auto is_unknown = [](const StrainSummary& strain) { return std::isnan(strain.shear); };
   if (std::ranges::any_of(done.strains, is_unknown)) {
     fmt::print(
-        "nan: no grain has a strain; they are too few, or farther apart than --longest-edge\n");
+        "nan: no strain can be computed; there are too few grains, or all edges exceed "
+        "--longest-edge\n");
   }
   fmt::print("open {}\n", done.strain_index.string());
   if (!done.force_distribution.empty()) {
@@ -102,22 +103,23 @@ void add_analyse_command(CLI::App& app) {
       "analyse", "Local strains and the distribution of contact forces from a run's saved fields");
   auto options = std::make_shared<AnalyseOptions>();
   command->add_option("run", options->folder, "Folder of a run")->required();
-  command->add_option("--from", options->analysis.from,
-                      "Step that strains are counted from; by default the first saved in the last "
-                      "stage");
-  command->add_option("--longest-edge", options->longest_edge,
-                      "Of the tetrahedra that count, e.g. 5mm (default: five mean diameters)");
+  command->add_option(
+      "--from", options->analysis.from,
+      "Reference step of the strains (default: the first saved step of the last stage)");
+  command->add_option(
+      "--longest-edge", options->longest_edge,
+      "Tetrahedra with a longer edge are left out, e.g. 5mm (default: five mean diameters)");
   command
       ->add_option("--bin", options->analysis.bin_width,
-                   "Width of the bins of forces, over the mean force")
+                   "Width of a histogram bin, divided by the mean force")
       ->check(CLI::Range(1e-4, 1e4))
       ->capture_default_str();
   command->add_flag("--json", options->json, "Answer in JSON");
   command->footer(
-      "Strains are those of a Delaunay triangulation of the grains' centres, averaged around each\n"
-      "grain; they show shear bands. strain.pvd opens them in ParaView, force_distribution.csv "
-      "has\n"
-      "a line per bin and saved step.\n\n"
+      "Strains are computed in a Delaunay triangulation of the grains' centres and averaged "
+      "around\n"
+      "each grain. They show shear bands. Open strain.pvd in ParaView to see them.\n"
+      "force_distribution.csv has one line for each bin and saved step.\n\n"
       "Example:\n  reckon analyse triaxial.run");
   command->callback([options] { analyse(*options); });
 }

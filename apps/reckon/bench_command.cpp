@@ -84,47 +84,52 @@ void bench(const BenchOptions& options) {
   bool same_bits = true;
   for (const std::string& name : options.workloads) same_bits = run(name, options) && same_bits;
   if (same_bits) return;
-  fmt::print(stderr, "reckon: error: both engines must end in the same bits, and did not\n");
+  fmt::print(stderr,
+             "reckon: error: the two engines gave different results; they must be equal to the "
+             "last bit\n");
   throw CLI::RuntimeError{run_failed};
 }
 
 }  // namespace
 
 void add_bench_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("bench", "Measure what a step costs here, beside the plain algorithm");
+  CLI::App* command = app.add_subcommand(
+      "bench", "Measure the time of a step on this machine, and compare with the plain engine");
   auto options = std::make_shared<BenchOptions>();
   std::vector<std::string> names;
   for (const bench::WorkloadKind& kind : bench::workload_kinds()) names.push_back(kind.name);
-  command->add_option("workload", options->workloads, "What to run, one or more")
+  command->add_option("workload", options->workloads, "Workloads to run, one or more")
       ->required()
       ->check(CLI::IsMember(names));
-  command->add_option("--size", options->size, "small: a few grains and steps, to try it out")
+  command->add_option("--size", options->size, "small: few grains and steps, for a first try")
       ->check(CLI::IsMember({"full", "small"}))
       ->capture_default_str();
   command->add_option("--grains", options->grains,
-                      "Number of grains instead of the workload's own");
-  command->add_option("--threads", options->threads, "Threads; above 1 also compares with one")
+                      "Number of grains (default: that of the workload)");
+  command
+      ->add_option("--threads", options->threads,
+                   "Number of threads; above 1, one thread is measured too")
       ->check(CLI::Range(1, most_threads))
       ->capture_default_str();
   std::vector<std::string> levels{"auto"};
   for (const SimdLevel level : simd_levels_here()) levels.emplace_back(name_of(level));
   // The choices depend on the machine; the reference must not.
   command
-      ->add_option("--simd", options->simd,
-                   "Instructions that look for near nodes: auto, scalar, avx2, avx512 or neon")
+      ->add_option(
+          "--simd", options->simd,
+          "Instructions that the search for near nodes uses: auto, scalar, avx2, avx512 or neon")
       ->check(CLI::IsMember(levels).description(""))
       ->capture_default_str();
   add_storage_option(*command, options->storage);
   command->add_option("--cache", options->cache, "Keep packings in this folder, and reuse them");
   command->add_option("--save", options->save, "Also write WORKLOAD.MACHINE.json into this folder");
-  command->add_flag("--no-plain", options->no_plain, "Leave out the plain algorithm");
+  command->add_flag("--no-plain", options->no_plain, "Do not run the plain engine");
   command->add_flag("--json", options->json, "Answer in JSON");
-  command->add_flag("--quiet", options->quiet, "Say nothing meanwhile");
+  command->add_flag("--quiet", options->quiet, "Print no progress");
   command->footer(list_of_workloads() +
                   "\nExample:\n"
                   "  reckon bench dense settle --cache /tmp/packings\n\n"
-                  "Only ratios within one run mean anything on a machine that others use too.");
+                  "If other programs use the machine too, compare only ratios within one run.");
   command->callback([options] { bench(*options); });
 }
 

@@ -73,7 +73,7 @@ void check(const CheckOptions& options) {
 
 void add_check_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "check", "Find every fault of a scene and say what its run will do; writes no files");
+      "check", "Find all faults of a scene and describe its run; writes no files");
   auto options = std::make_shared<CheckOptions>();
   command->add_option("scene", options->scene, "Scene file (TOML)")->required();
   command->add_flag("--json", options->json, "Answer in JSON");
@@ -81,7 +81,7 @@ void add_check_command(CLI::App& app) {
       ->check(CLI::Range(1, most_threads));
   command
       ->add_option("--timing", options->timing_seconds,
-                   "Seconds to spend on timing real steps in memory")
+                   "Seconds for which steps are run in memory, to measure their time")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   command->footer(std::string{"Examples:\n"

@@ -156,7 +156,7 @@ std::vector<std::size_t> choose_shapes(const LibrarySource& library,
 void add_grains_command(CLI::App& app, const CommandWords& words) {
   CLI::App* grains = app.add_subcommand(
       "grains",
-      "Make shape libraries from meshes, coefficients, solids or statistics; look at them");
+      "Make shape libraries from scans, meshes, coefficients, solids or statistics; inspect them");
   grains->require_subcommand(1);
   add_grains_sources(*grains, words);
   add_grains_legacy(*grains, words);

@@ -59,7 +59,7 @@ void add_grains_export(CLI::App& grains) {
     std::vector<std::string> names;
   };
   CLI::App* command = grains.add_subcommand(
-      "export", "Write the grains' surfaces, as contact sees them, for ParaView or as meshes");
+      "export", "Write the surfaces that contacts use, for ParaView or as meshes");
   command->footer("Example:\n  reckon grains export sand.h5 --format stl --out look");
   auto options = std::make_shared<Options>();
   command->add_option("library", options->library, "Shape library (.h5) or legacy folder")
@@ -67,9 +67,8 @@ void add_grains_export(CLI::App& grains) {
   command->add_option("--format", options->format, "vtp: also NAME_nodes.vtp; stl: in metres")
       ->capture_default_str()
       ->check(CLI::IsMember({"vtp", "stl"}));
-  command->add_option("--out", options->folder, "Folder to write to; made when missing")
-      ->required();
-  command->add_option("--shape", options->names, "Only grains of these names");
+  command->add_option("--out", options->folder, "Output folder; created if missing")->required();
+  command->add_option("--shape", options->names, "Only grains with these names");
   command->callback([=] {
     const LibrarySource library{options->library};
     const auto shapes = choose_shapes(library, options->names);

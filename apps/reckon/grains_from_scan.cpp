@@ -88,7 +88,7 @@ void run(FromScanOptions options, const CommandWords& words) {
     throw Error{{.place = "--truth",
                  .problem = fmt::format("{} holds no truth", options.truth),
                  .reason = "there is no library.h5 in it",
-                 .fix = "Name a folder that `reckon grains scan` has written."}};
+                 .fix = "Name a folder that `reckon grains scan` wrote."}};
   }
   const std::filesystem::path folder{options.folder};
   std::filesystem::create_directories(folder);
@@ -132,27 +132,27 @@ void add_stage_options(CLI::App& command, FromScanOptions& options) {
   command.add_option("--mask", s.specimen.mask,
                      "Volume whose voxels above 0 are the specimen (default: found)");
   command.add_flag("--keep-container", s.specimen.keep_container,
-                   "Do not look for walls and floors to take out");
+                   "Do not search for container walls and floors, and do not remove them");
   command.add_flag("--keep-shading", s.specimen.keep_shading,
-                   "Do not level the grays of void and solid over the volume");
+                   "Do not correct gray values that vary over the volume");
   command
       .add_option("--phases", s.mask.phases,
-                  "Solids of different gray that are looked for: 1, or 0 for as many as there are")
+                  "Number of solids of different gray: 1, or 0 to detect the number")
       ->capture_default_str()
       ->check(CLI::Range(0, 1));
-  command.add_option("--denoise", s.denoise.method, "How noise is taken out")
+  command.add_option("--denoise", s.denoise.method, "Method that removes noise")
       ->transform(CLI::CheckedTransformer(denoisings))
       ->default_str("curvature");
   number("--iterations", s.denoise.iterations, "Iterations of curvature diffusion");
   number("--conductance", s.denoise.conductance,
-         "Conductance of curvature diffusion; less keeps more edges")
+         "Conductance of curvature diffusion; a lower value keeps more edges")
       ->check(CLI::PositiveNumber);
   auto* threshold =
       command.add_option("--threshold", s.mask.threshold,
                          "Gray value between void and solid (default: found by Otsu's method)");
   command
       .add_option("--grays", options.grays,
-                  "Grays of void and of each solid, rising (default: found)")
+                  "Gray values of void and of each solid, in ascending order (default: found)")
       ->type_name("VOID,SOLID,...")
       ->excludes(threshold);
   command.add_flag("--no-fill", options.no_fill, "Leave voids inside grains");
@@ -163,23 +163,27 @@ void add_stage_options(CLI::App& command, FromScanOptions& options) {
   command
       .add_option(
           "--rise", s.split.least_rise,
-          "Least depth of a grain's middle above its deepest neck [voxels]; more splits less")
+          "A neck divides two grains where the distance to the surface in the middle of both "
+          "exceeds that in the neck by this [voxels]; a higher value splits less")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 100.0));
   command
       .add_option(
           "--neck", s.split.neck,
-          "Necks wider than this share of the smaller grain do not divide; less splits less")
+          "A neck wider than this share of the smaller grain does not divide; a lower value splits "
+          "less")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
   command
-      .add_option("--neck-void", s.split.neck_void,
-                  "Nor do necks that lack less than this share of the grains' own gray; more "
-                  "splits less")
+      .add_option(
+          "--neck-void", s.split.neck_void,
+          "A neck that is darker than the grains by less than this share of their gray does "
+          "not divide; a higher value splits less")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
-  command.add_flag("--keep-border", s.keep_border, "Keep grains that the volume's border cuts");
-  number("--fewest-voxels", s.fewest_voxels, "Smaller grains are dropped");
+  command.add_flag("--keep-border", s.keep_border,
+                   "Keep grains that touch the border of the volume");
+  number("--fewest-voxels", s.fewest_voxels, "Grains with fewer voxels are left out");
 }
 
 void add_avatar_options(CLI::App& command, FromScanOptions& options) {
@@ -188,28 +192,31 @@ void add_avatar_options(CLI::App& command, FromScanOptions& options) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 5.0));
   command
-      .add_option("--sharpen", s.sharpening,
-                  "Times that what a further smoothing by one voxel would take away is added")
+      .add_option(
+          "--sharpen", s.sharpening,
+          "Weight of the sharpening: the difference to a surface smoothed by one more voxel is "
+          "added this many times")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 10.0));
   command
-      .add_option("--contact-gap", s.contact_gap,
-                  "Grains touch when the gray values leave a gap of at most this [voxels]")
+      .add_option(
+          "--contact-gap", s.contact_gap,
+          "Two grains touch if the gap between them in the gray values is at most this [voxels]")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 2.0));
   auto* per_diameter =
       command
           .add_option("--voxels-per-diameter", options.voxels_per_diameter,
-                      "Grid spacings of an avatar along its diameter (default: the scan's voxel)")
+                      "Grid spacings along an avatar's diameter (default: the grid of the scan)")
           ->check(CLI::Range(10.0, 1000.0));
   command.add_option("--avatar-voxel", options.avatar_voxel, "Grid spacing of the avatars")
       ->excludes(per_diameter);
   auto* spacing = command
                       .add_option("--node-spacing", s.resolution.node_spacing,
-                                  "Root of a node's mean area, in diameters")
+                                  "Square root of the mean area of a node, in diameters")
                       ->capture_default_str()
                       ->check(CLI::Range(0.005, 0.5));
-  command.add_option("--nodes", options.nodes, "Surface nodes per grain, whatever its size")
+  command.add_option("--nodes", options.nodes, "Number of surface nodes of each grain")
       ->excludes(spacing)
       ->check(CLI::Range(4, 10000000));
   add_storage_option(command, s.resolution.storage);
@@ -219,10 +226,10 @@ void add_avatar_options(CLI::App& command, FromScanOptions& options) {
 
 void add_grains_from_scan(CLI::App& grains, const CommandWords& words) {
   CLI::App* command = grains.add_subcommand(
-      "from-scan", "Grains and their places from an X-ray volume, gray or labelled");
+      "from-scan", "Make grains and their positions from an X-ray volume, gray or labelled");
   command->footer(
       "Examples:\n"
-      "  reckon grains from-scan scan.nrrd --voxel 3um --out sand --until split   # look first\n"
+      "  reckon grains from-scan scan.nrrd --voxel 3um --out sand --until split   # inspect first\n"
       "  reckon grains from-scan scan.nrrd --voxel 3um --out sand\n"
       "  reckon run sand/relax.toml");
   auto options = std::make_shared<FromScanOptions>();
@@ -232,33 +239,35 @@ void add_grains_from_scan(CLI::App& grains, const CommandWords& words) {
                    "TIFF stack or folder, .nrrd, .mha, .raw with .raw.txt, .h5 or .npy")
       ->required();
   command->add_option("--voxel", options->voxel, "Edge of a voxel, e.g. 3um")->required();
-  command->add_option("-o,--out", options->folder, "Folder to write to; made when missing")
-      ->required();
+  command->add_option("-o,--out", options->folder, "Output folder; created if missing")->required();
   command->add_flag("--invert", s.volume.invert, "Void is brighter than the grains in this volume");
-  command->add_option("--dataset", s.volume.dataset, "Which dataset of an HDF5 file");
-  auto* labelled = command->add_flag("--labelled", s.labelled, "The volume holds labels already");
+  command->add_option("--dataset", s.volume.dataset, "Name of the dataset in an HDF5 file");
+  auto* labelled =
+      command->add_flag("--labelled", s.labelled, "The volume contains labels, not gray values");
   command->add_option("--gray", s.gray, "With --labelled: the gray volume of the same scan")
       ->needs(labelled);
   command
       ->add_option(
           "--until", options->until,
-          "Stop after read, specimen, denoise, threshold or split, and look at the pictures")
+          "Stop after read, specimen, denoise, threshold or split, to inspect the pictures")
       ->capture_default_str()
       ->check(CLI::IsMember({"read", "specimen", "denoise", "threshold", "split", "avatars"}));
-  command->add_option("--slice", options->slice, "Layer of the pictures (default: the middle)");
+  command->add_option("--slice", options->slice,
+                      "Layer that the pictures show (default: the middle)");
   add_stage_options(*command, *options);
   add_avatar_options(*command, *options);
   command->add_option("--truth", options->truth,
-                      "Folder that `reckon grains scan` wrote: compare with it");
+                      "Compare with this folder, written by `reckon grains scan`");
   command
       ->add_option("--memory", s.memory,
-                   "For volumes, e.g. 8GB; larger ones are worked on in blocks (default: half of "
-                   "the machine's)")
+                   "Memory for volumes, e.g. 8GB; a larger volume is processed in blocks (default: "
+                   "half of the machine's memory)")
       ->transform(CLI::AsSizeValue(true));
   command
       ->add_option(
           "--overlap", s.overlap,
-          "Of blocks [voxels]: more than the largest grain (default: a quarter of a block)")
+          "Overlap of blocks [voxels]; must exceed the largest grain (default: a quarter of a "
+          "block)")
       ->check(CLI::Range(8, 100000));
   command->add_option("--threads", options->threads, "Threads (default: all)")
       ->check(CLI::Range(1, most_threads));

@@ -101,7 +101,7 @@ void print_summary(const Entries& entries) {
   fmt::print("\n{} {}, {} nodes, {} in memory, checksums good\n", human_count(entries.size()),
              entries.size() == 1 ? "grain" : "grains", human_count(nodes), human_bytes(memory));
   if (entries.size() == 1) return;
-  fmt::print("  {:<24} {:>9} {:>9} {:>9}\n", "", "least", "mean", "most");
+  fmt::print("  {:<24} {:>9} {:>9} {:>9}\n", "", "min", "mean", "max");
   range(fmt::format("diameter {}", unit.name).c_str(), unit.metres,
         [](const auto& d) { return d.equivalent_diameter; });
   range("elongation W/L", 1, [](const auto& d) { return d.elongation; });
@@ -219,7 +219,7 @@ void add_grains_info(CLI::App& grains) {
   auto options = std::make_shared<Options>();
   command->add_option("library", options->library, "Shape library (.h5) or legacy folder")
       ->required();
-  command->add_option("--shape", options->names, "Only grains of these names");
+  command->add_option("--shape", options->names, "Only grains with these names");
   command->add_flag("--json", options->json, "Answer in JSON");
   command->callback([=] {
     const LibrarySource library{options->library};

@@ -22,14 +22,14 @@ void add_grains_legacy(CLI::App& grains, const CommandWords& words) {
   };
   {
     CLI::App* command = grains.add_subcommand(
-        "from-legacy", "Grains from a folder of LS-DEM morphology files, morph_1.dat, ...");
+        "from-legacy", "Make grains from a folder of LS-DEM morphology files, morph_1.dat, ...");
     command->footer("Example:\n  reckon grains from-legacy Morphologies --voxel 13um -o sand.h5");
     auto options = std::make_shared<Options>();
     command->add_option("folder", options->input, "Folder with the files")
         ->required()
         ->check(CLI::ExistingDirectory);
     command->add_option("-o,--output", options->output, "Shape library to write (.h5)")->required();
-    command->add_option("--voxel", options->voxel, "Length of a voxel of the scan")
+    command->add_option("--voxel", options->voxel, "Edge of a voxel of the scan, e.g. 13um")
         ->capture_default_str();
     command->add_flag("--keep-radius", options->keep_radius,
                       "Keep the files' bounding radii even where the grain reaches beyond");

@@ -72,7 +72,7 @@ struct Movement {
 };
 
 void print(const Movement& m) {
-  fmt::print("          {:>10} {:>10} {:>10}\n", "mean", "95 %", "most");
+  fmt::print("          {:>10} {:>10} {:>10}\n", "mean", "95 %", "max");
   fmt::print("moved     {:>10.5f} {:>10.5f} {:>10.5f} diameters\n", m.moved.mean, m.moved.high,
              m.moved.largest);
   fmt::print("turned    {:>10.4f} {:>10.4f} {:>10.4f} degrees\n", m.turned.mean, m.turned.high,
@@ -159,16 +159,16 @@ void compare(const MovedOptions& options) {
 
 void add_grains_moved(CLI::App& grains) {
   CLI::App* command = grains.add_subcommand(
-      "moved", "How far a run has moved grains from where a table placed them, and what overlaps");
+      "moved", "Measure how far a run moved the grains of a table, and their overlaps");
   command->footer("Example:\n  reckon grains moved sand/placement.csv relax.run");
   auto options = std::make_shared<MovedOptions>();
-  command->add_option("placement", options->placement, "Table of poses")
+  command->add_option("placement", options->placement, "Table of poses, placement.csv")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("run", options->run, "Folder of a run that began with it")
+  command->add_option("run", options->run, "Folder of a run that started from this table")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_option("-o,--output", options->output, "Write a line per grain to this .csv");
+  command->add_option("-o,--output", options->output, "Write one line per grain to this .csv file");
   command->add_flag("--json", options->json, "Answer in JSON");
   command->callback([=] { compare(*options); });
 }

@@ -190,7 +190,7 @@ void scan(const ScanOptions& options, const CommandWords& words) {
 void add_grains_scan(CLI::App& grains, const CommandWords& words) {
   CLI::App* command = grains.add_subcommand(
       "scan",
-      "Scan a run or a scene as an X-ray tomograph would, with the truth beside the volume");
+      "Simulate an X-ray scan of a run or a scene; the true grains are written beside the volume");
   command->footer("Example:\n  reckon grains scan settle.run --voxel 30um --out scan");
   auto options = std::make_shared<ScanOptions>();
   ScannerSettings& s = options->scanner;
@@ -199,12 +199,11 @@ void add_grains_scan(CLI::App& grains, const CommandWords& words) {
       ->check(CLI::ExistingPath);
   command->add_option("--step", options->step, "Checkpoint of the run (default: the last)");
   command->add_option("--voxel", options->voxel, "Edge of a voxel, e.g. 30um")->required();
-  command->add_option("--out", options->folder, "Folder to write to; made when missing")
-      ->required();
-  command->add_option("--format", options->format, "Ending of the volume's file")
+  command->add_option("--out", options->folder, "Output folder; created if missing")->required();
+  command->add_option("--format", options->format, "File format of the volume")
       ->capture_default_str()
       ->check(CLI::IsMember({"h5", "npy", "raw", "mha", "nrrd", "tif"}));
-  command->add_option("--type", options->type, "Type of the volume's numbers")
+  command->add_option("--type", options->type, "Number type of the volume")
       ->capture_default_str()
       ->check(CLI::IsMember({"uint8", "uint16", "float32"}));
   const auto number = [&](const char* name, auto& value, const char* what) {
@@ -212,35 +211,39 @@ void add_grains_scan(CLI::App& grains, const CommandWords& words) {
   };
   number("--blur", s.blur, "Standard deviation of the point spread function [voxels]");
   number("--noise", s.noise, "Standard deviation of the noise / (solid - void)");
-  number("--beam-hardening", s.beam_hardening, "Share of its gray that solid on the axis loses");
+  number("--beam-hardening", s.beam_hardening,
+         "Share of its gray value that solid on the axis loses");
   command->add_flag("--no-partial-volume", options->no_partial_volume,
-                    "A voxel's centre decides, not its solid share");
-  number("--margin", s.margin, "Void around the grains [voxels]");
+                    "A voxel is solid if its centre is; its solid share is not used");
+  number("--margin", s.margin, "Width of the void around the grains [voxels]");
   number("--void-gray", s.void_gray, "Gray value of void");
   number("--solid-gray", s.solid_gray, "Gray value of solid");
   number("--seed", s.seed, "Seed of the noise");
   ScanArtefacts& a = s.artefacts;
-  number("--tube", a.tube, "Gray of a tube around the grains / (solid - void); 0: none");
-  number("--floor", a.floor, "Gray of a floor under the grains / (solid - void); 0: none");
+  number("--tube", a.tube, "Gray value of a tube around the grains / (solid - void); 0: no tube");
+  number("--floor", a.floor,
+         "Gray value of a floor under the grains / (solid - void); 0: no floor");
   command->add_option_function<double>(
       "--circle",
       [options](double gray) {
         options->scanner.artefacts.circle = 1;
         options->scanner.artefacts.circle_gray = gray;
       },
-      "Constant gray value outside the circle that fits into the volume");
-  number("--shading", a.shading, "Gray added from one side to the other along x / (solid - void)");
-  number("--gain-shading", a.gain_shading, "Share by which the gray changes likewise");
-  number("--cupping", a.cupping, "Share of its gray that the axis loses, void included");
+      "Gray value outside the largest circle of a layer (default: as inside)");
+  number("--shading", a.shading,
+         "Change of the gray value from one side to the other along x / (solid - void)");
+  number("--gain-shading", a.gain_shading,
+         "Relative change of the gray value from one side to the other along x");
+  number("--cupping", a.cupping, "Share of their gray value that solid and void on the axis lose");
   number("--rings", a.rings, "Standard deviation of rings about the axis / (solid - void)");
-  number("--mineral-share", a.mineral_share, "Share of the grains that are another mineral");
-  number("--mineral-gray", a.mineral_gray, "Its gray above void / (solid - void)");
+  number("--mineral-share", a.mineral_share, "Share of the grains that are of another mineral");
+  number("--mineral-gray", a.mineral_gray, "(gray value of this mineral - void) / (solid - void)");
   number("--crack-share", a.crack_share, "Share of the grains that have a crack");
   number("--crack-width", a.crack_width, "Width of the cracks [voxels]");
   command
       ->add_option("--memory", options->memory,
-                   "For the volume, e.g. 8GB; a larger one is scanned slab by slab (default: half "
-                   "of the machine's)")
+                   "Memory for the volume, e.g. 8GB; a larger volume is scanned in slabs (default: "
+                   "half of the machine's memory)")
       ->transform(CLI::AsSizeValue(true));
   command->add_option("--threads", options->threads, "Threads (default: all)")
       ->check(CLI::Range(1, most_threads));

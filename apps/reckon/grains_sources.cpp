@@ -52,10 +52,10 @@ std::shared_ptr<MakeOptions> add_make_options(CLI::App& command) {
       ->excludes(per_diameter);
   auto* spacing = command
                       .add_option("--node-spacing", options->node_spacing,
-                                  "Root of a node's mean area, in diameters")
+                                  "Square root of the mean area of a node, in diameters")
                       ->capture_default_str()
                       ->check(CLI::Range(0.005, 0.5));
-  command.add_option("--nodes", options->nodes, "Surface nodes per grain, whatever its size")
+  command.add_option("--nodes", options->nodes, "Number of surface nodes of each grain")
       ->excludes(spacing)
       ->check(CLI::Range(4, 10000000));
   add_storage_option(command, options->storage);
@@ -97,7 +97,7 @@ void report_faults(const std::vector<Error>& faults, std::size_t sources,
   if (sources == 1) throw Error{faults.front().text()};
   for (const Error& fault : faults) fmt::print(stderr, "reckon: error: {}\n", fault.what());
   const bool none_left = faults.size() == sources;
-  fmt::print(stderr, "reckon: {} of {} sources are at fault; {}\n", faults.size(), sources,
+  fmt::print(stderr, "reckon: {} of {} sources have faults; {}\n", faults.size(), sources,
              none_left ? library + " is not written" : "the others are in " + library);
   throw CLI::RuntimeError{input_at_fault};
 }
@@ -131,8 +131,9 @@ void make(const std::vector<ShapeSource>& sources, const MakeOptions& options,
 void add_mesh_options(CLI::App& command, MeshTreatment& treatment, std::string& merge) {
   static const std::map<std::string, bool> parts{{"refuse", false}, {"split", true}};
   command
-      .add_option("--parts", treatment.split,
-                  "Several parts in one file: refuse, or split: each is a grain, NAME_1, NAME_2")
+      .add_option(
+          "--parts", treatment.split,
+          "If a file has several parts: refuse it, or split it into grains NAME_1, NAME_2, ...")
       ->transform(CLI::CheckedTransformer(parts, CLI::ignore_case))
       ->default_str("refuse");
   command
@@ -141,13 +142,13 @@ void add_mesh_options(CLI::App& command, MeshTreatment& treatment, std::string& 
       ->type_name("[LENGTH]")
       ->expected(0, 1);
   command.add_flag("--repair", treatment.repair,
-                   "Make a scanned surface closed: join corners, remove loose fragments, turn "
-                   "faces outward, close holes; says what it did");
+                   "Close a scanned surface: join corners, remove loose fragments, turn faces "
+                   "outward, close holes; the changes are printed");
 }
 
 void add_from_mesh(CLI::App& grains, const CommandWords& words) {
   CLI::App* command =
-      grains.add_subcommand("from-mesh", "Grains from closed surfaces: STL, OBJ or PLY files");
+      grains.add_subcommand("from-mesh", "Make grains from closed surfaces: STL, OBJ or PLY files");
   command->footer(
       "Example:\n  reckon grains from-mesh scans/*.stl --unit mm -o scans.h5\n"
       "  reckon grains from-mesh heap.obj --unit mm --parts split --repair -o heap.h5");
@@ -180,8 +181,8 @@ void add_from_mesh(CLI::App& grains, const CommandWords& words) {
 }
 
 void add_from_grid(CLI::App& grains, const CommandWords& words) {
-  CLI::App* command =
-      grains.add_subcommand("from-grid", "Grains from signed-distance grids in LAMMPS-style text");
+  CLI::App* command = grains.add_subcommand(
+      "from-grid", "Make grains from signed-distance grids in LAMMPS-style text files");
   command->footer("Example:\n  reckon grains from-grid clay.txt --unit um -o clay.h5");
   auto files = std::make_shared<std::vector<std::string>>();
   auto unit = std::make_shared<std::string>();
@@ -200,7 +201,7 @@ void add_from_grid(CLI::App& grains, const CommandWords& words) {
 
 void add_from_harmonics(CLI::App& grains, const CommandWords& words) {
   CLI::App* command = grains.add_subcommand(
-      "from-harmonics", "Grains from spherical-harmonic coefficients, lines `n m Re Im`");
+      "from-harmonics", "Make grains from spherical-harmonic coefficients, lines `n m Re Im`");
   command->footer(
       "Example:\n  reckon grains from-harmonics anm/*.dat --unit mm --degree-table geometry.dat "
       "-o rock.h5");
@@ -216,11 +217,11 @@ void add_from_harmonics(CLI::App& grains, const CommandWords& words) {
       ->check(CLI::ExistingFile);
   command->add_option("--unit", own->unit, "Unit of the coefficients, e.g. mm")->required();
   auto* degree =
-      command->add_option("--degree", own->degree, "Cut all grains off above this degree")
+      command->add_option("--degree", own->degree, "Use coefficients up to this degree only")
           ->check(CLI::Range(1, 512));
   command
       ->add_option("--degree-table", own->table,
-                   "Table whose columns Name and Nnn give each file its degree")
+                   "Table with the degree of each file, in its columns Name and Nnn")
       ->excludes(degree)
       ->check(CLI::ExistingFile);
   const auto options = add_make_options(*command);
@@ -299,7 +300,7 @@ std::vector<ShapeSource> solid_sources(const SolidOptions& own) {
 
 void add_solid(CLI::App& grains, const CommandWords& words) {
   CLI::App* command =
-      grains.add_subcommand("solid", "Grains of simple form; each option may be given repeatedly");
+      grains.add_subcommand("solid", "Make grains of simple form; each option can be repeated");
   command->footer("Example:\n  reckon grains solid --sphere 1mm --box 2mm,1.5mm,1mm -o solids.h5");
   auto own = std::make_shared<SolidOptions>();
   const auto add = [&](const char* name, std::vector<std::string>& values, const char* form,
@@ -322,7 +323,7 @@ void add_solid(CLI::App& grains, const CommandWords& words) {
       throw Error{{.place = "reckon grains solid",
                    .problem = "no solid is given",
                    .reason = {},
-                   .fix = "Give --sphere 1mm, for one."}};
+                   .fix = "Give one, for example --sphere 1mm."}};
     }
     make(sources, *options, provenance_of(words, {}));
   });
@@ -357,35 +358,38 @@ GrainStatistics statistics_of(const std::string& library, std::uint64_t seed) {
 
 void add_generate(CLI::App& grains, const CommandWords& words) {
   CLI::App* command =
-      grains.add_subcommand("generate", "Random sand-like grains with given statistics");
+      grains.add_subcommand("generate", "Make random sand-like grains with given statistics");
   command->footer("Example:\n  reckon grains generate --count 40 --seed 7 --d50 0.3mm -o sand.h5");
   auto own = std::make_shared<GenerateOptions>();
   GrainStatistics& s = own->statistics;
   command->add_option("--count", own->count, "Number of grains")
       ->required()
       ->check(CLI::Range(1U, 10000000U));
-  command->add_option("--seed", own->seed, "The same seed gives the same grains")
+  command
+      ->add_option("--seed", own->seed,
+                   "Seed of the random numbers; the same seed gives the same grains")
       ->capture_default_str();
   const auto number = [&](const char* name, auto& value, const char* what) {
     command->add_option(name, value, what)->capture_default_str();
   };
   number("--d50", own->median, "Median diameter of the sphere of equal volume");
   number("--log-deviation", s.log_deviation, "Standard deviation of ln(diameter)");
-  command->add_option("--smallest", own->smallest, "Least diameter");
-  command->add_option("--largest", own->largest, "Largest diameter");
+  command->add_option("--smallest", own->smallest, "Min diameter");
+  command->add_option("--largest", own->largest, "Max diameter");
   number("--elongation", s.elongation.mean, "Mean width / length");
-  number("--elongation-deviation", s.elongation.deviation, "Its standard deviation");
+  number("--elongation-deviation", s.elongation.deviation, "Standard deviation of width / length");
   number("--flatness", s.flatness.mean, "Mean thickness / width");
-  number("--flatness-deviation", s.flatness.deviation, "Its standard deviation");
-  number("--fewest-faces", s.fewest_faces, "Faces that a grain is cut by, at least");
-  number("--most-faces", s.most_faces, "Faces that a grain is cut by, at most");
-  number("--face-irregularity", s.face_irregularity, "Part of the radius that a face cuts in");
+  number("--flatness-deviation", s.flatness.deviation, "Standard deviation of thickness / width");
+  number("--fewest-faces", s.fewest_faces, "Min number of faces cut into a grain");
+  number("--most-faces", s.most_faces, "Max number of faces cut into a grain");
+  number("--face-irregularity", s.face_irregularity, "Depth of a cut face / radius");
   number("--roundness", s.roundness.mean, "Mean corner radius / inscribed radius");
-  number("--roundness-deviation", s.roundness.deviation, "Its standard deviation");
+  number("--roundness-deviation", s.roundness.deviation, "Standard deviation of the roundness");
   number("--roughness", s.roughness, "Root mean square of the surface's relief / radius");
-  number("--hurst", s.hurst, "Hurst exponent of the relief; larger is smoother");
-  number("--lowest-degree", s.lowest_degree, "Longest wave of the relief: 2 pi radius / degree");
-  number("--highest-degree", s.highest_degree, "Shortest wave of the relief");
+  number("--hurst", s.hurst, "Hurst exponent of the relief; a higher value is smoother");
+  number("--lowest-degree", s.lowest_degree,
+         "Degree of the longest wave of the relief, 2 pi radius / degree");
+  number("--highest-degree", s.highest_degree, "Degree of the shortest wave of the relief");
   auto* like = command->add_option(
       "--like", own->like, "Match the statistics of this library's grains instead of giving them");
   for (CLI::Option* option : command->get_options()) {
@@ -422,11 +426,12 @@ void add_generate(CLI::App& grains, const CommandWords& words) {
 
 void add_spheres(CLI::App& grains, const CommandWords& words) {
   CLI::App* command = grains.add_subcommand(
-      "spheres", "The equivalent spheres of a library: one per grain, of the same name and volume");
+      "spheres", "Make a sphere of the same name and volume for each grain of a library");
   command->footer(
-      "Scenes that take one library or the other place the same masses of grains; their "
+      "Two scenes that differ only in these libraries have grains of the same masses. The "
       "difference\n"
-      "is what shape does.\n\nExample:\n  reckon grains spheres sand.h5 -o spheres.h5");
+      "between their results is the effect of shape.\n\nExample:\n  reckon grains spheres sand.h5 "
+      "-o spheres.h5");
   auto library = std::make_shared<std::string>();
   command->add_option("library", *library, "Shape library (.h5) or legacy folder")->required();
   const auto options = add_make_options(*command);

@@ -18,8 +18,8 @@ namespace reckon::app {
 namespace {
 
 void print_spreads(const ShapeLibrary& library) {
-  fmt::print("{:<14} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "", "mean", "deviation",
-             "least", "10 %", "median", "90 %", "most");
+  fmt::print("{:<14} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "", "mean", "std. dev.",
+             "min", "10 %", "median", "90 %", "max");
   for (const ShapeMeasure& measure : shape_measures()) {
     const MeasureSpread s = spread_of(library, measure);
     fmt::print("{:<14} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g} {:>10.4g}\n",
@@ -66,7 +66,8 @@ std::string as_csv(const ShapeLibrary& library) {
 
 void add_grains_statistics(CLI::App& grains) {
   CLI::App* command = grains.add_subcommand(
-      "statistics", "How size and form are spread over a library; a line per grain as CSV");
+      "statistics",
+      "Print the distributions of size and form in a library; write one CSV line per grain");
   command->footer("Example:\n  reckon grains statistics sand.h5 -o sand.csv");
   struct Options {
     std::string library;
@@ -76,7 +77,7 @@ void add_grains_statistics(CLI::App& grains) {
   auto options = std::make_shared<Options>();
   command->add_option("library", options->library, "Shape library (.h5) or legacy folder")
       ->required();
-  command->add_option("-o,--output", options->output, "Write a line per grain to this .csv");
+  command->add_option("-o,--output", options->output, "Write one line per grain to this .csv file");
   command->add_flag("--json", options->json, "Answer in JSON");
   command->callback([=] {
     const ShapeLibrary library = entries_of(LibrarySource{options->library});

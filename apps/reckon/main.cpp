@@ -111,8 +111,8 @@ void require_run_command(const Communicator& ranks, int argc, char** argv) {
 int run_command_line(int argc, char** argv, const Communicator& ranks) {
   CLI::App app{
       "Sand Reckoner: level-set discrete element method for grains of any shape.\n"
-      "Shapes come from `grains`, a scene says what happens to them, `check` and `run` do the "
-      "rest.",
+      "`grains` makes shapes. A scene describes a test on them. `check` finds faults in a scene, "
+      "and `run` runs it.",
       "reckon"};
   use_help_format(app);
   app.set_version_flag("-v,--version", version());

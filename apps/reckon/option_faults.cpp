@@ -104,9 +104,10 @@ std::string explain_extra(const std::vector<std::string>& extras, const CLI::App
   if (std::find(known.begin(), known.end(), name) != known.end()) {
     advice = fmt::format(" Did you mean --{}?", name);
   } else if (is_unit(extras.front())) {
-    advice = " A number and its unit are one word: write 1mm, say.";
+    advice = " Write a number and its unit without a space, for example 1mm.";
   }
-  return fmt::format("`{}` has no use for \"{}\".{}", full_name(command), extras.front(), advice);
+  return fmt::format("`{}` takes no argument \"{}\".{}", full_name(command), extras.front(),
+                     advice);
 }
 
 /// The message of CLI11 for one option: "--threads: 1 required INT:INT in [1 - 4096] missing",
@@ -126,7 +127,7 @@ std::string explain_option(const std::string& text, const CLI::App& root) {
   const std::string written =
       text.substr(begin, std::min(text.find(" not in {"), text.find(" value in {")) - begin);
   const auto near = nearest_name(written, choices);
-  return fmt::format("{}: \"{}\" is none of {}{}", name, written, fmt::join(choices, ", "),
+  return fmt::format("{}: \"{}\" is not one of {}{}", name, written, fmt::join(choices, ", "),
                      near ? fmt::format(". Did you mean {}?", *near) : "");
 }
 
@@ -163,12 +164,13 @@ std::string fault_of_number(const std::string& given) {
 /// "--out --quiet" names no folder.
 std::string fault_of_value(const std::string& given) {
   if (!given.starts_with("--")) return {};
-  return fmt::format("needs a value, and {} is none. A name that begins so: ./{}", given, given);
+  return fmt::format("needs a value, and {} is an option. Write a name that begins with -- as ./{}",
+                     given, given);
 }
 
 std::string fault_of_count(const std::string& given, bool may_be_negative) {
   if (is_whole_number(given) && given[0] == '-' && !may_be_negative) {
-    return fmt::format("{} is not a whole number from 0 on", given);
+    return fmt::format("{} is not a whole number of 0 or more", given);
   }
   if (is_whole_number(given)) return {};
   return with_advice(fmt::format("{} is not a whole number", given), advice_on_whole_number(given));

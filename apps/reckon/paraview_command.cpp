@@ -15,12 +15,12 @@
 namespace reckon::app {
 
 void add_paraview_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("paraview", "Write a state with which ParaView draws a run at once");
+  CLI::App* command = app.add_subcommand("paraview", "Write a ParaView state that shows a run");
   auto folder = std::make_shared<std::string>();
   command->add_option("run", *folder, "Folder of a run")->required();
   command->footer(
-      "Files go to the folder paraview in the run's. A run under way can be drawn too.\n\n"
+      "Files are written to the folder paraview in the folder of the run. The run may still be\n"
+      "in progress.\n\n"
       "Examples:\n"
       "  reckon paraview settle.run\n"
       "  paraview --script=settle.run/paraview/state.py\n"

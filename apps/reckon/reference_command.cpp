@@ -21,7 +21,7 @@ void add_reference_command(CLI::App& app) {
       ->add_option("page", *page,
                    "scene: every key of a scene; history: columns of history.csv; fields: what is "
                    "saved of each grain; commands: every command and option (these in Markdown); "
-                   "man: the same as a manual page; bash: completion for bash")
+                   "man: the commands as a manual page; bash: completion for bash")
       ->required()
       ->check(CLI::IsMember({"scene", "history", "fields", "commands", "man", "bash"}));
   command->footer(

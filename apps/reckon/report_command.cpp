@@ -61,7 +61,7 @@ void report(const ReportOptions& options) {
 
 void add_report_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "report", "Show runs in one HTML file: curves, grains in three dimensions, tables");
+      "report", "Write one HTML file that shows runs: curves, grains in three dimensions, tables");
   auto options = std::make_shared<ReportOptions>();
   command->add_option("runs", options->folders, "Folders of runs; several are compared")
       ->required();
@@ -69,11 +69,11 @@ void add_report_command(CLI::App& app) {
                       "The file (default: report.html in the first folder)");
   command
       ->add_option("--frames", options->limits.frames,
-                   "Saved times to put in at most, evenly spread; 0: only curves and tables")
+                   "Max number of saved times, evenly spread; 0: only curves and tables")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command->footer(
-      "The file needs no network and nothing beside it. A run under way can be shown too.\n\n"
+      "The file needs no network and no other file. The run may still be in progress.\n\n"
       "Examples:\n"
       "  reckon report settle.run\n"
       "  reckon report loose.run dense.run -o compared.html");

@@ -216,7 +216,7 @@ void run(const RunCommandOptions& options, const Communicator& ranks, bool launc
 }  // namespace
 
 void add_run_command(CLI::App& app, const Communicator& ranks, bool launched) {
-  CLI::App* command = app.add_subcommand("run", "Run a scene, or go on with a run");
+  CLI::App* command = app.add_subcommand("run", "Run a scene, or resume a run");
   auto options = std::make_shared<RunCommandOptions>();
   command->add_option("scene", options->scene, "Scene file (TOML)")->required();
   command->add_option("--out", options->folder,
@@ -227,32 +227,33 @@ void add_run_command(CLI::App& app, const Communicator& ranks, bool launched) {
           "Number of threads of each process (default: an even share of the machine); changes "
           "no result")
       ->check(CLI::Range(1, most_threads));
-  command->add_option("--steps", options->steps, "Run to this step instead of what the scene says")
+  command
+      ->add_option("--steps", options->steps, "Last step of the run (default: as the scene gives)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000'000}));
   CLI::Option* resume = command->add_flag(
       "--resume", options->resume,
-      "Go on from the latest good checkpoint, to the same bits as without a break; starts anew "
-      "where there is none");
+      "Resume from the latest good checkpoint; the results have the same bits as without the "
+      "break. Without a checkpoint the run starts from the beginning");
   command->add_flag("--overwrite", options->overwrite, "Replace the run that is in the folder")
       ->excludes(resume);
   command
-      ->add_option("--safety-minutes", options->safety_minutes,
-                   "Wall-clock minutes between checkpoints besides the scene's; 0: none")
+      ->add_option(
+          "--safety-minutes", options->safety_minutes,
+          "Minutes of wall-clock time between further checkpoints; 0: only those of the scene")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   command->add_flag("--quiet", options->quiet,
-                    "Print nothing but errors, and why figures mean nothing");
+                    "Print only errors, and the reasons why results are not valid");
   command->add_flag("--json", options->json, "At the end, answer in JSON, and print nothing else");
   command->footer(
-      std::string{
-          "Examples:\n"
-          "  reckon run settle.toml\n"
-          "  reckon run settle.toml --out /scratch/settle --threads 8\n"
-          "  reckon run settle.toml --resume               after a break\n"
-          "  reckon run settle.toml --resume --steps 50000  longer\n"
-          "  mpirun -np 4 reckon run settle.toml --threads 2   4 processes\n\n"
-          "Ctrl-C, SIGTERM, SIGUSR1 and SIGHUP finish the step, write a checkpoint and end; "
-          "a second one ends at once.\n\n"} +
+      std::string{"Examples:\n"
+                  "  reckon run settle.toml\n"
+                  "  reckon run settle.toml --out /scratch/settle --threads 8\n"
+                  "  reckon run settle.toml --resume               after a break\n"
+                  "  reckon run settle.toml --resume --steps 50000  longer\n"
+                  "  mpirun -np 4 reckon run settle.toml --threads 2   4 processes\n\n"
+                  "Ctrl-C, SIGTERM, SIGUSR1 and SIGHUP stop the run after the step, with a "
+                  "checkpoint. A second signal stops it at once.\n\n"} +
       exit_code_footer);
   command->callback([options, &ranks, launched] { run(*options, ranks, launched); });
 }

@@ -143,7 +143,7 @@ void ScanReport::segmented(const Segmentation& scan, ScanStage last) {
   for (const std::int32_t dim : dims) json_.value({}, dim);
   json_.end();
   for (const ScanStage stage : scan.resumed) {
-    fmt::print("resumed    {}: input and settings are those of its file\n", name_of(stage));
+    fmt::print("resumed    {}: input and settings are the same as in its file\n", name_of(stage));
   }
   if (last >= ScanStage::threshold) {
     fmt::print("gray       void {:.6g}, solid {:.6g}, threshold {:.6g}\n", scan.levels.void_gray,
@@ -210,7 +210,7 @@ void ScanReport::avatars(const ScannedAssembly& assembly, const Segmentation& sc
              100 * drift, gradient);
   fmt::print("contacts   {} touch; {} pairs overlap, by {:.3f} voxels at most\n",
              human_count(touching), human_count(overlapping), overlap / voxel);
-  fmt::print("blur       {:.3f} voxels, as the surfaces show it\n", assembly.spread);
+  fmt::print("blur       {:.3f} voxels, measured on the surfaces\n", assembly.spread);
   json_.value("avatars", assembly.shapes.size());
   json_.value("refused", assembly.refused.size());
   json_.value("mean_diameter_voxels", diameter / voxel);

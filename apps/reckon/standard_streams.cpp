@@ -41,7 +41,7 @@ int end_output(int code) {
   const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   if (!failed || code != success || reader_is_gone()) return code;
   std::fputs(
-      "reckon: error: standard output cannot be written: what was to be printed is not complete. "
+      "reckon: error: standard output cannot be written: the printed text is incomplete. "
       "Check the free space.\n",
       stderr);
   return run_failed;

@@ -26,8 +26,8 @@ void add_surfaces_command(CLI::App& app) {
   command->add_option("run", options->folder, "Folder of a run")->required();
   command->add_option("--step", options->step, "Only the checkpoint of this step");
   command->footer(
-      "Files go to the run's folder; surfaces.pvd lists them. To have them at every frame, set\n"
-      "output.surfaces = true in the scene.\n\n"
+      "Files are written to the folder of the run; surfaces.pvd lists them. To write surfaces at\n"
+      "every frame, set output.surfaces = true in the scene.\n\n"
       "Example:\n  reckon surfaces settle.run");
   command->callback([options] {
     SurfaceFiles files;

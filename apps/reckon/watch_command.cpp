@@ -51,20 +51,20 @@ void watch(const WatchOptions& options) {
 }  // namespace
 
 void add_watch_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("watch", "Show a run in a browser while it goes on, as `report` does");
+  CLI::App* command = app.add_subcommand(
+      "watch", "Show a run in a browser while it is in progress, as `report` does");
   auto options = std::make_shared<WatchOptions>();
   command->add_option("run", options->folder, "Folder of a run")->required();
-  command->add_option("--port", options->port, "Where to listen on 127.0.0.1; 0: any free port")
+  command->add_option("--port", options->port, "Port on 127.0.0.1; 0: any free port")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   command
       ->add_option("--frames", options->limits.frames,
-                   "Saved times to show at most, evenly spread; 0: only curves and tables")
+                   "Max number of saved times, evenly spread; 0: only curves and tables")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command->footer(
-      "The page follows the run. It is read-only, and nothing but the run can be read through it.\n"
+      "The page follows the run. It is read-only, and gives access to the files of this run only.\n"
       "The address holds a token: without it, other users of the machine cannot read the run.\n"
       "From another machine: ssh -L 8000:127.0.0.1:8000 HOST, with --port 8000 there; then open\n"
       "the address that is printed.\n\n"

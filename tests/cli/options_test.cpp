@@ -38,7 +38,7 @@ TEST_F(OptionsTest, CountsAreNotNegative) {
             "1000000000000000\nSee: reckon run --help\n");
   EXPECT_NE(
       refusal({"grains", "scan", "scene.toml", "--voxel", "0.2mm", "--out", "scan", "--seed", "-1"})
-          .find("--seed: -1 is not a whole number from 0 on\nSee: reckon grains scan --help"),
+          .find("--seed: -1 is not a whole number of 0 or more\nSee: reckon grains scan --help"),
       std::string::npos);
   EXPECT_NE(refusal({"grains", "scan", "scene.toml", "--voxel", "0.2mm", "--out", "scan",
                      "--memory", "-1GB"}),
@@ -89,21 +89,23 @@ TEST_F(OptionsTest, AnOptionThatIsNotThereComesWithTheNearest) {
   EXPECT_EQ(said({"--timing", "2"}), no_option + "--timing. `reckon check` has it.");
   EXPECT_EQ(said({"--xyzzy"}).find(no_option + "--xyzzy. There are --"), 0U);
   EXPECT_EQ(said({"threads=2"}),
-            "reckon: error: `reckon run` has no use for \"threads=2\". Did you mean --threads?");
+            "reckon: error: `reckon run` takes no argument \"threads=2\". Did you mean --threads?");
   EXPECT_EQ(
       said({"--threads"}).find("reckon: error: --threads needs a value: N: Number of threads"), 0U);
   EXPECT_NE(refusal({"grains", "generate", "--count", "2", "--d50", "1", "mm", "-o", "x.h5"})
-                .find("has no use for \"mm\". A number and its unit are one word: write 1mm"),
+                .find("takes no argument \"mm\". Write a number and its unit without a space, for "
+                      "example 1mm"),
             std::string::npos);
 }
 
 TEST_F(OptionsTest, AWordThatIsNotThereComesWithTheNearest) {
-  EXPECT_EQ(refusal({"grains", "export", "grains.h5", "--format", "slt", "--out", "x"}),
-            "reckon: error: --format: \"slt\" is none of vtp, stl. Did you mean stl?\nSee: reckon "
-            "grains export --help\n");
+  EXPECT_EQ(
+      refusal({"grains", "export", "grains.h5", "--format", "slt", "--out", "x"}),
+      "reckon: error: --format: \"slt\" is not one of vtp, stl. Did you mean stl?\nSee: reckon "
+      "grains export --help\n");
   EXPECT_NE(refusal({"grains", "generate", "--count", "2", "--d50", "1mm", "-o", "x.h5",
                      "--storage", "bnad"})
-                .find("--storage: \"bnad\" is none of band, full. Did you mean band?"),
+                .find("--storage: \"bnad\" is not one of band, full. Did you mean band?"),
             std::string::npos);
   EXPECT_NE(refusal({"bench", "dence"}).find("Did you mean dense?"), std::string::npos);
   EXPECT_EQ(refusal({"run"}),
@@ -126,8 +128,8 @@ TEST_F(OptionsTest, ACommandThatIsNotThereComesWithTheNearest) {
 
 TEST_F(OptionsTest, AnOptionIsNoValueOfAnother) {
   EXPECT_EQ(refusal({"run", "scene.toml", "--out", "--quiet"}),
-            "reckon: error: --out: needs a value, and --quiet is none. A name that begins so: "
-            "./--quiet\nSee: reckon run --help\n");
+            "reckon: error: --out: needs a value, and --quiet is an option. Write a name that "
+            "begins with -- as ./--quiet\nSee: reckon run --help\n");
   EXPECT_FALSE(std::filesystem::exists(root_ / "--quiet"));
 }
 

@@ -131,7 +131,7 @@ TEST_F(GrainsCommand, OneBadMeshOfManyIsNamedAndLeftOut) {
   const std::string said = make({"bad.stl", "good.stl", "worse.obj"}, "some.h5");
   expect_holds(said, "bad.stl, line 2: unknown word 'nonsense'");
   expect_holds(said, "worse.obj: holds no faces");
-  expect_holds(said, "2 of 3 sources are at fault; the others are in " + path("some.h5"));
+  expect_holds(said, "2 of 3 sources have faults; the others are in " + path("some.h5"));
   ASSERT_EQ(load_library(path("some.h5")).size(), 1U);
   EXPECT_EQ(load_library(path("some.h5"))[0].name, "good");
   expect_holds(make({"bad.stl", "worse.obj"}, "none.h5"), "none.h5 is not written");
