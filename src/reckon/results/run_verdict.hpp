@@ -48,10 +48,10 @@ struct RunEvidence {
   RecordedSpacing coarse_nodes{};
 };
 
-/// Tests for negative void ratios, deep overlaps, overlaps that no node
-/// sees, grains that are outside or have left a sample,
-/// rates that are not quasi-static, a required rest that was not reached, and a failure. Columns
-/// that the history lacks, as in runs of earlier versions, give no reason.
+/// Tests for negative void ratios, deep overlaps, overlaps that no node sees, grains that are
+/// outside or have left a sample, rates that are not quasi-static, a required rest that was not
+/// reached, and a failure. Columns that the history lacks, as in runs of earlier versions, give no
+/// reason.
 [[nodiscard]] RunVerdict verdict_on(const RunEvidence& evidence);
 /// The same from the files of a run.
 [[nodiscard]] RunVerdict verdict_of(const RunFolder& folder);
