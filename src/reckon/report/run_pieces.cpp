@@ -71,10 +71,7 @@ void add_history(const RunFolder& folder, const SceneConfig& scene, std::size_t 
   }
   json.end();
   piece.add("history", numbers);
-  const std::filesystem::path record = folder.own(folder.json());
-  const RunVerdict verdict = verdict_on(
-      {scene, table, recorded_status(record), recorded_message(record), recorded_spacing(record)});
-  json.value("verdict", verdict_text(verdict));
+  json.value("verdict", verdict_text(verdict_on(folder, scene, table)));
   json.value("findings", scene.stages.empty() ? std::string{} : stage_report(scene, table));
 }
 

@@ -120,45 +120,47 @@ void overwrite_run_record(const std::filesystem::path& path, const RunRecord& re
 
 namespace {
 
-/// The text under a key of the record's outer object; empty where there is none.
-std::string recorded_text(const std::filesystem::path& path, std::string_view key) {
-  if (!std::filesystem::exists(path)) return {};
-  const std::string record = read_file(path);
-  const std::string before = fmt::format("\n  \"{}\": \"", key);
-  std::size_t at = record.find(before);
-  if (at == std::string::npos) return {};
+/// What follows `"key": ` in the record's outer object; empty where there is no such key.
+std::string_view recorded_value(std::string_view record, std::string_view key) {
+  const std::string before = fmt::format("\n  \"{}\": ", key);
+  const std::size_t at = record.find(before);
+  return at == std::string_view::npos ? std::string_view{} : record.substr(at + before.size());
+}
+
+std::string recorded_text(std::string_view record, std::string_view key) {
+  const std::string_view value = recorded_value(record, key);
   std::string text;
-  for (at += before.size(); at < record.size() && record[at] != '"'; ++at) {
-    if (record[at] == '\\' && at + 1 < record.size()) {
+  if (!value.starts_with('"')) return text;
+  for (std::size_t at = 1; at < value.size() && value[at] != '"'; ++at) {
+    if (value[at] == '\\' && at + 1 < value.size()) {
       ++at;
-      text += record[at] == 'n' ? '\n' : record[at];
+      text += value[at] == 'n' ? '\n' : value[at];
     } else {
-      text += record[at];
+      text += value[at];
     }
   }
   return text;
 }
 
+double recorded_number(std::string_view record, std::string_view key) {
+  const std::string_view value = recorded_value(record, key);
+  double number = 0;
+  std::from_chars(value.data(), value.data() + value.size(), number);
+  return number;
+}
+
 }  // namespace
 
-std::string recorded_status(const std::filesystem::path& path) {
-  return recorded_text(path, "status");
-}
-
-RecordedSpacing recorded_spacing(const std::filesystem::path& path) {
-  RecordedSpacing spacing{recorded_text(path, "coarse_nodes")};
-  if (spacing.text.empty()) return spacing;
+RecordedOutcome recorded_outcome(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return {};
   const std::string record = read_file(path);
-  constexpr std::string_view key = "\n  \"unseen_overlap_ratio\": ";
-  const std::size_t at = record.find(key);
-  if (at == std::string::npos) return spacing;
-  const char* begin = record.data() + at + key.size();
-  std::from_chars(begin, record.data() + record.size(), spacing.unseen);
-  return spacing;
+  return {recorded_text(record, "status"),
+          recorded_text(record, "message"),
+          {recorded_text(record, "coarse_nodes"), recorded_number(record, "unseen_overlap_ratio")}};
 }
 
-std::string recorded_message(const std::filesystem::path& path) {
-  return recorded_text(path, "message");
+std::string recorded_status(const std::filesystem::path& path) {
+  return recorded_outcome(path).status;
 }
 
 }  // namespace reckon

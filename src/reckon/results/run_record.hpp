@@ -55,11 +55,14 @@ void write_run_record(const std::filesystem::path& path, const RunRecord& record
 /// room of its own, or else the old one, which is no longer true, is removed.
 void overwrite_run_record(const std::filesystem::path& path, const RunRecord& record);
 
-/// The message of a failure in a run.json; empty where there is none.
-[[nodiscard]] std::string recorded_message(const std::filesystem::path& path);
-/// The spacing of nodes in a run.json that is too wide; an empty text where there is none.
-[[nodiscard]] RecordedSpacing recorded_spacing(const std::filesystem::path& path);
-/// The status in a run.json; empty where there is none.
+/// What a run.json says of how the run stands. Empty where there is no file or no such key.
+struct RecordedOutcome {
+  std::string status;
+  std::string message;  ///< of a failure
+  RecordedSpacing coarse_nodes;
+};
+[[nodiscard]] RecordedOutcome recorded_outcome(const std::filesystem::path& path);
+/// Its status alone.
 [[nodiscard]] std::string recorded_status(const std::filesystem::path& path);
 
 }  // namespace reckon

@@ -30,10 +30,12 @@ class Evidence {
       : scene_{evidence.scene},
         history_{evidence.history},
         columns_{evidence.history},
+        coarse_nodes_{evidence.coarse_nodes},
         ended_{evidence.status != "running"} {}
 
   [[nodiscard]] const SceneConfig& scene() const { return scene_; }
   [[nodiscard]] const HistoryTable& history() const { return history_; }
+  [[nodiscard]] const RecordedSpacing& coarse_nodes() const { return coarse_nodes_; }
   [[nodiscard]] std::size_t rows() const { return history_.rows.size(); }
   /// Whether no session is at work on the run.
   [[nodiscard]] bool ended() const { return ended_; }
@@ -77,6 +79,7 @@ class Evidence {
   const SceneConfig& scene_;
   const HistoryTable& history_;
   HistoryColumns columns_;
+  const RecordedSpacing& coarse_nodes_;
   bool ended_;
 };
 
@@ -103,7 +106,8 @@ void check_overlap(const Evidence& evidence, RunVerdict& verdict) {
 }
 
 /// The reported overlap is that of the nodes. What they cannot see must be small as well.
-void check_spacing(const RecordedSpacing& spacing, RunVerdict& verdict) {
+void check_spacing(const Evidence& evidence, RunVerdict& verdict) {
+  const RecordedSpacing& spacing = evidence.coarse_nodes();
   if (spacing.text.empty()) return;
   if (spacing.unseen > overlap_limit) return verdict.add("coarse_nodes", spacing.text);
   verdict.notes.push_back(spacing.text);
@@ -192,8 +196,8 @@ void note_flight(const Evidence& evidence, RunVerdict& verdict) {
                                       evidence.place(last), 100 * m.carried_share));
 }
 
-constexpr auto checks = {check_void_ratio, check_overlap, check_grains,
-                         check_rates,      check_rest,    note_flight};
+constexpr auto checks = {check_spacing, check_void_ratio, check_overlap, check_grains,
+                         check_rates,   check_rest,       note_flight};
 
 }  // namespace
 
@@ -205,9 +209,14 @@ RunVerdict verdict_on(const RunEvidence& evidence) {
   RunVerdict verdict;
   if (evidence.status == "failed") verdict.add("failed", "the run failed: " + evidence.message);
   const Evidence found{evidence};
-  check_spacing(evidence.coarse_nodes, verdict);
   for (const auto& check : checks) check(found, verdict);
   return verdict;
+}
+
+RunVerdict verdict_on(const RunFolder& folder, const SceneConfig& scene,
+                      const HistoryTable& history) {
+  const RecordedOutcome outcome = recorded_outcome(folder.own(folder.json()));
+  return verdict_on({scene, history, outcome.status, outcome.message, outcome.coarse_nodes});
 }
 
 RunVerdict verdict_of(const RunFolder& folder) {
@@ -218,9 +227,7 @@ RunVerdict verdict_of(const RunFolder& folder) {
     history = read_history(file);
     require_columns(file, history, quantity_groups(make_walls(scene)));
   }
-  const std::filesystem::path record = folder.own(folder.json());
-  return verdict_on({scene, history, recorded_status(record), recorded_message(record),
-                     recorded_spacing(record)});
+  return verdict_on(folder, scene, history);
 }
 
 std::string verdict_text(const RunVerdict& verdict) {

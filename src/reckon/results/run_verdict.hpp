@@ -53,6 +53,9 @@ struct RunEvidence {
 /// reached, and a failure. Columns that the history lacks, as in runs of earlier versions, give no
 /// reason.
 [[nodiscard]] RunVerdict verdict_on(const RunEvidence& evidence);
+/// The same with what the record of a run adds to its scene and history.
+[[nodiscard]] RunVerdict verdict_on(const RunFolder& folder, const SceneConfig& scene,
+                                    const HistoryTable& history);
 /// The same from the files of a run.
 [[nodiscard]] RunVerdict verdict_of(const RunFolder& folder);
 
