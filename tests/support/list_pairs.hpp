@@ -20,7 +20,7 @@ inline void list_pairs(GrainContacts& contacts, std::span<const GrainFrame> fram
     positions.push_back(frame.position);
     radii.push_back(frame.shape->bounding_radius);
   }
-  contacts.rebuild(find_pairs(ids, positions, radii, skin, ids.size()), ids.size());
+  contacts.rebuild(find_pairs(ids, positions, radii, skin, ids.size()), ids.size(), ids.size());
 }
 
 }  // namespace reckon::testing

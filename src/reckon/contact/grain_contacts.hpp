@@ -85,9 +85,6 @@ class GrainContacts {
   /// Lists the pairs anew, which must be sorted by ids; pairs that were listed keep their springs.
   /// `slot_count` grains, of which the first `owned` are not ghosts.
   void rebuild(std::vector<Pair> pairs, std::size_t slot_count, std::size_t owned);
-  void rebuild(std::vector<Pair> pairs, std::size_t slot_count) {
-    rebuild(std::move(pairs), slot_count, slot_count);
-  }
 
   /// Finds touching nodes and computes the force of every listed pair.
   void evaluate(std::span<const GrainFrame> frames, double time_step) {

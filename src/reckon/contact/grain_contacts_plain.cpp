@@ -21,7 +21,6 @@ class SidedSprings {
     const auto first_of_b = std::find_if(springs.begin(), springs.end(), is_of_b);
     of_a_ = static_cast<std::size_t>(first_of_b - springs.begin());
   }
-  [[nodiscard]] bool empty() const { return springs_.empty(); }
   [[nodiscard]] std::span<const NodeSpring> of(bool master_is_b) const {
     return master_is_b ? springs_.subspan(of_a_) : springs_.first(of_a_);
   }

@@ -14,6 +14,8 @@
 
 #include <hwy/highway.h>
 
+#include <utility>
+
 #include "reckon/contact/node_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -100,8 +102,9 @@ void answer_any_nodes(const AnyContactLaw& any, double friction, double time_ste
 
 }  // namespace
 
-LawLanes lanes_of_target() { return answer_any_blocks; }
-LawOfNodes nodes_of_target() { return answer_any_nodes; }
+std::pair<LawLanes, LawOfNodes> kernels_of_target() {
+  return {answer_any_blocks, answer_any_nodes};
+}
 
 }  // namespace reckon::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -109,27 +112,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace reckon {
 
-LawLanes law_lanes(SimdLevel level) {
+namespace {
+
+std::pair<LawLanes, LawOfNodes> kernels(SimdLevel level) {
   [[maybe_unused]] const SimdLevel resolved = resolve(level);
 #if HWY_TARGETS & HWY_AVX2
-  if (resolved == SimdLevel::avx2) return N_AVX2::lanes_of_target();
+  if (resolved == SimdLevel::avx2) return N_AVX2::kernels_of_target();
 #endif
 #if HWY_TARGETS & HWY_AVX3
-  if (resolved == SimdLevel::avx512) return N_AVX3::lanes_of_target();
+  if (resolved == SimdLevel::avx512) return N_AVX3::kernels_of_target();
 #endif
-  return HWY_STATIC_DISPATCH(lanes_of_target)();  // what all machines of this kind have
+  return HWY_STATIC_DISPATCH(kernels_of_target)();  // what all machines of this kind have
 }
 
-LawOfNodes law_of_nodes(SimdLevel level) {
-  [[maybe_unused]] const SimdLevel resolved = resolve(level);
-#if HWY_TARGETS & HWY_AVX2
-  if (resolved == SimdLevel::avx2) return N_AVX2::nodes_of_target();
-#endif
-#if HWY_TARGETS & HWY_AVX3
-  if (resolved == SimdLevel::avx512) return N_AVX3::nodes_of_target();
-#endif
-  return HWY_STATIC_DISPATCH(nodes_of_target)();
-}
+}  // namespace
+
+LawLanes law_lanes(SimdLevel level) { return kernels(level).first; }
+LawOfNodes law_of_nodes(SimdLevel level) { return kernels(level).second; }
 
 }  // namespace reckon
 #endif

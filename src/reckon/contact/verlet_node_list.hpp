@@ -82,23 +82,14 @@ class VerletNodeList {
       next_checks()[n] = next_check;
       changed = true;
     }
-    if (!(path_length < head.earliest_check)) {
-      double* const next_check = next_checks();
-      head.earliest_check = check_never;
-      for (std::uint32_t n = head.touching; n < head.count; ++n) {
-        if (!(path_length < next_check[n])) {
-          next_check[n] = test(node[n]);
-          changed |= next_check[n] == check_always;
-        }
-        head.earliest_check = std::min(head.earliest_check, next_check[n]);
-      }
-    }
+    if (look_at_others(path_length, test) == check_always) changed = true;
     if (changed) regroup(touches);
     return head.touching > 0 ? check_always : std::min(head.earliest_check, head.complete_until);
   }
 
-  /// The same where nodes that touch are kept elsewhere: `test` returns check_never for such a
-  /// node, until take_back() gives it a next_check-up again.
+  /// The same only for the nodes that did not touch. Where nodes that touch are kept elsewhere this
+  /// is the whole look: `test` then returns check_never for a node that touches, until take_back()
+  /// gives it a next check again.
   template <class Test>
   double look_at_others(double path_length, Test&& test) {
     Head& head = *block_;
@@ -106,14 +97,14 @@ class VerletNodeList {
       Node* const node = nodes();
       double* const next_check = next_checks();
       head.earliest_check = check_never;
-      for (std::uint32_t n = 0; n < head.count; ++n) {
+      for (std::uint32_t n = head.touching; n < head.count; ++n) {
         if (!(path_length < next_check[n])) next_check[n] = test(node[n]);
         head.earliest_check = std::min(head.earliest_check, next_check[n]);
       }
     }
     return std::min(head.earliest_check, head.complete_until);
   }
-  /// Sets a node that is listed and its next_check-up.
+  /// Sets a node that is listed, and its next check.
   void take_back(const Node& node, double next_check) {
     if (!block_) return;
     Node* const first = nodes();
@@ -136,20 +127,11 @@ class VerletNodeList {
     const double* const first = next_checks();
     for (std::uint32_t n = 0; n < block_->count; n += 8) __builtin_prefetch(first + n);
   }
-  void prefetch_head() const {
-    if (!block_) return;
-    for (std::size_t b = 0; b < sizeof(Head); b += 64) {
-      __builtin_prefetch(reinterpret_cast<const std::byte*>(block_.get()) + b);
-    }
-  }
+  /// Asks the memory for the head.
+  void prefetch_head() const { ask(block_.get(), block_ ? sizeof(Head) : 0); }
   /// Asks the memory for what the next look reads first.
   void prefetch() const {
     constexpr std::size_t nodes_ahead = 2;
-    const auto ask = [](const void* from, std::size_t bytes) {
-      for (std::size_t b = 0; b < bytes; b += 64) {
-        __builtin_prefetch(static_cast<const std::byte*>(from) + b);
-      }
-    };
     if (!block_) return;
     ask(block_.get(), offsetof(Head, reference));
     ask(block_.get() + 1, nodes_ahead * sizeof(Node));
@@ -170,6 +152,12 @@ class VerletNodeList {
     void operator()(Head* head) const { ::operator delete (head, std::align_val_t{alignof(Head)}); }
   };
   static_assert(alignof(Node) <= alignof(Head) && alignof(double) <= alignof(Node));
+
+  static void ask(const void* from, std::size_t bytes) {
+    for (std::size_t b = 0; b < bytes; b += 64) {
+      __builtin_prefetch(static_cast<const std::byte*>(from) + b);
+    }
+  }
 
   [[nodiscard]] static std::size_t bytes_for(std::size_t capacity) {
     return sizeof(Head) + capacity * (sizeof(Node) + sizeof(double));

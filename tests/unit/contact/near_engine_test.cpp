@@ -184,10 +184,10 @@ TEST(NearEngine, AdoptsTheSameNewPairTwice) {
     const std::vector twice{pair, pair};
     contacts.adopt(twice);
     EXPECT_EQ(contacts.springs(), std::vector{pair});
-    contacts.rebuild({{GrainId{4}, GrainId{9}, 0, 1}}, 2);
+    contacts.rebuild({{GrainId{4}, GrainId{9}, 0, 1}}, 2, 2);
     EXPECT_EQ(contacts.springs(), std::vector{pair});
     contacts.adopt(twice);  // it has its springs
-    contacts.rebuild({{GrainId{4}, GrainId{9}, 1, 0}}, 2);
+    contacts.rebuild({{GrainId{4}, GrainId{9}, 1, 0}}, 2, 2);
     EXPECT_EQ(contacts.springs(), std::vector{pair});
   }
 }
