@@ -113,23 +113,15 @@ void ProgressDisplay::print_line(const RunProgress& progress, double steps_per_s
 }
 
 CountDisplay::CountDisplay(std::string what)
-    : what_{std::move(what)},
-      terminal_{::isatty(STDERR_FILENO) == 1},
-      start_{std::chrono::steady_clock::now()},
-      last_{start_} {}
+    : what_{std::move(what)}, terminal_{::isatty(STDERR_FILENO) == 1} {}
 
 CountDisplay::~CountDisplay() {
   if (terminal_) std::fputs("\r\033[K", stderr);
 }
 
-double CountDisplay::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
-
 void CountDisplay::show(std::size_t done, std::size_t total) {
-  const auto now = std::chrono::steady_clock::now();
-  if (!terminal_ || std::chrono::duration<double>(now - last_).count() < redraw_interval) return;
-  last_ = now;
+  if (!terminal_ || since_shown_.seconds() < redraw_interval) return;
+  since_shown_ = {};
   const double rate = static_cast<double>(done) / seconds();
   const double share = total == 0 ? 1 : static_cast<double>(done) / static_cast<double>(total);
   draw(stderr, STDERR_FILENO, share,

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "reckon/core/stopwatch.hpp"
 #include "reckon/run/run.hpp"
 
 namespace reckon::app {
@@ -54,13 +55,13 @@ class CountDisplay {
   CountDisplay& operator=(const CountDisplay&) = delete;
 
   void show(std::size_t done, std::size_t total);
-  [[nodiscard]] double seconds() const;
+  [[nodiscard]] double seconds() const { return since_start_.seconds(); }
 
  private:
   std::string what_;
   bool terminal_;
-  std::chrono::steady_clock::time_point start_;
-  std::chrono::steady_clock::time_point last_;
+  Stopwatch since_start_;
+  Stopwatch since_shown_;
 };
 
 }  // namespace reckon::app

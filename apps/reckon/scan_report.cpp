@@ -118,15 +118,14 @@ ScanReport::ScanReport(std::filesystem::path folder) : folder_{std::move(folder)
 
 void ScanReport::end_stage() {
   if (stage_.empty()) return;
-  const auto now = std::chrono::steady_clock::now();
-  seconds_.emplace_back(stage_, std::chrono::duration<double>(now - start_).count());
+  seconds_.emplace_back(stage_, since_begin_.seconds());
   stage_.clear();
 }
 
 void ScanReport::begin(const std::string& stage) {
   end_stage();
   stage_ = stage;
-  start_ = std::chrono::steady_clock::now();
+  since_begin_ = {};
 }
 
 void ScanReport::remark(const std::string& text) {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <string>
 
+#include "reckon/core/stopwatch.hpp"
 #include "reckon/scan/from_scan.hpp"
 #include "reckon/scan/scan_avatars.hpp"
 #include "reckon/text/json_writer.hpp"
@@ -37,7 +37,7 @@ class ScanReport {
   std::filesystem::path folder_;
   JsonWriter json_;
   std::string stage_;
-  std::chrono::steady_clock::time_point start_;
+  Stopwatch since_begin_;  // of the stage
   std::vector<std::pair<std::string, double>> seconds_;
   std::vector<std::string> remarks_;
 };
