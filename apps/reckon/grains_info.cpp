@@ -98,8 +98,8 @@ void print_summary(const Entries& entries) {
     fmt::print("  {:<24} {:>9.4g} {:>9.4g} {:>9.4g}\n", what, low / scale, mean / scale,
                high / scale);
   };
-  fmt::print("\n{} {}, {} nodes, {} in memory, checksums good\n", human_count(entries.size()),
-             entries.size() == 1 ? "grain" : "grains", human_count(nodes), human_bytes(memory));
+  fmt::print("\n{}, {} nodes, {} in memory, checksums good\n", counted(entries.size(), "grain"),
+             human_count(nodes), human_bytes(memory));
   if (entries.size() == 1) return;
   fmt::print("  {:<24} {:>9} {:>9} {:>9}\n", "", "min", "mean", "max");
   range(fmt::format("diameter {}", unit.name).c_str(), unit.metres,

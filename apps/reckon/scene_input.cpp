@@ -9,6 +9,7 @@
 
 #include "reckon/core/utf8.hpp"
 #include "reckon/scene/scene_loader.hpp"
+#include "reckon/text/human.hpp"
 
 namespace reckon::app {
 
@@ -22,8 +23,7 @@ SceneInput read_scene(const std::string& file) {
 void print_faults(const std::string& file, const SceneReading& reading) {
   constexpr std::size_t most = 100;
   const std::size_t count = reading.faults.size();
-  std::string block =
-      fmt::format("reckon: error: {} has {} fault{}\n", file, count, count == 1 ? "" : "s");
+  std::string block = fmt::format("reckon: error: {} has {}\n", file, counted(count, "fault"));
   for (std::size_t n = 0; n < std::min(count, most); ++n) {
     block += "  " + describe(reading.faults[n], file) + '\n';
   }

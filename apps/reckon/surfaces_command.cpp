@@ -12,6 +12,7 @@
 
 #include "progress.hpp"
 #include "reckon/results/run_surfaces.hpp"
+#include "reckon/text/human.hpp"
 
 namespace reckon::app {
 
@@ -38,8 +39,7 @@ void add_surfaces_command(CLI::App& app) {
           [](const std::string& size) { fmt::print(stderr, "{}\n", size); },
           [&](std::size_t done, std::size_t total) { display.show(done, total); });
     }
-    fmt::print("{} file{} written; open {}\n", files.written, files.written == 1 ? "" : "s",
-               files.index.string());
+    fmt::print("{} written; open {}\n", counted(files.written, "file"), files.index.string());
   });
 }
 

@@ -199,12 +199,11 @@ std::string performance_table(const PerformanceOfRun& run) {
                       human_bytes(static_cast<std::uint64_t>(shapes.most)));
   if (!several) return text;
   text += fmt::format(
-      "  {} ranks of {} thread{} on {} machine{}: work of the busiest {:.3g} times the mean; "
-      "{:.3g} "
+      "  {} ranks of {} on {}: work of the busiest {:.3g} times the mean; {:.3g} "
       "ghosts per grain; {:.2g} % of pairs computed twice\n",
-      run.ranks.size(), run.ranks.front().threads, run.ranks.front().threads == 1 ? "" : "s",
-      sum.machines, sum.machines == 1 ? "" : "s", sum.work.imbalance(), sum.ghosts_per_grain,
-      100 * sum.pairs_twice);
+      run.ranks.size(), counted(static_cast<std::uint64_t>(run.ranks.front().threads), "thread"),
+      counted(static_cast<std::uint64_t>(sum.machines), "machine"), sum.work.imbalance(),
+      sum.ghosts_per_grain, 100 * sum.pairs_twice);
   text += fmt::format("  sent {} in {} messages for ghosts, {} for {} migrating grains\n",
                       human_bytes(sum.bytes), human_count(sum.messages),
                       human_bytes(sum.migration_bytes), human_count(sum.migrated_grains));

@@ -94,9 +94,9 @@ SurfaceFiles write_run_surfaces(
           size.bytes, fmt::format("a file of {} triangles", human_count(size.triangles)),
           "Look at fewer grains, or at grains as points with their shapes (grains.pvd).");
       if (announce) {
-        announce(fmt::format("{} file{} of {} triangles: {} of disk each, as much memory",
-                             steps.size(), steps.size() == 1 ? "" : "s",
-                             human_count(size.triangles), human_bytes(size.bytes)));
+        announce(fmt::format("{} of {} triangles: {} of disk each, as much memory",
+                             counted(steps.size(), "file"), human_count(size.triangles),
+                             human_bytes(size.bytes)));
       }
     }
     time_step = checkpoint.time_step;

@@ -29,6 +29,7 @@
 #include "reckon/scene/scene_sharing.hpp"
 #include "reckon/simulation/stage_setup.hpp"
 #include "reckon/simulation/time_step.hpp"
+#include "reckon/text/human.hpp"
 
 namespace reckon {
 namespace {
@@ -115,8 +116,8 @@ class Session {
     const std::string ranks =
         ranks_.size() == 1 ? std::string{} : fmt::format("{} ranks of ", ranks_.size());
     const std::string what =
-        fmt::format("reckon {} ({}), {}{} thread{}", build.version, build.revision, ranks,
-                    thread_count(), thread_count() == 1 ? "" : "s");
+        fmt::format("reckon {} ({}), {}{}", build.version, build.revision, ranks,
+                    counted(static_cast<std::uint64_t>(thread_count()), "thread"));
     if (files_ != nullptr) files_->note(what);
     if (files_ != nullptr && config_.material.density_scaling != 1) {
       files_->note(fmt::format("inertia is scaled: grains move as if {:.4g} times denser",

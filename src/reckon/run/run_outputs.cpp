@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "reckon/text/human.hpp"
+
 namespace reckon {
 namespace {
 
@@ -39,9 +41,9 @@ std::string rows_lost(const HistoryTable& table, const OutputSchedule& schedule,
   if (lost == 0) return {};
   if (lost > named) steps += ", ...";
   return fmt::format(
-      "history.csv lacks {} row{} from before the checkpoint (step{} {}): lost by a full disk or a "
+      "history.csv lacks {} from before the checkpoint (step{} {}): lost by a full disk or a "
       "power failure, they cannot be made again without --overwrite",
-      lost, lost == 1 ? "" : "s", lost == 1 ? "" : "s", steps);
+      counted(lost, "row"), lost == 1 ? "" : "s", steps);
 }
 
 }  // namespace

@@ -262,10 +262,9 @@ std::string plan_text(const RunPlan& plan) {
                             human_count(plan.steps), plan.simulated_time));
   line("memory", fmt::format("about {} besides the program itself ({} of shapes)",
                              human_bytes(memory_of(plan)), human_bytes(plan.memory_shapes)));
-  line("output", fmt::format("about {}: {} history rows, {} ParaView frames, {} checkpoint{}",
+  line("output", fmt::format("about {}: {} history rows, {} ParaView frames, {}",
                              human_bytes(plan.output_bytes), human_count(plan.history_rows),
-                             human_count(plan.frames), human_count(plan.checkpoints),
-                             plan.checkpoints == 1 ? "" : "s"));
+                             human_count(plan.frames), counted(plan.checkpoints, "checkpoint")));
   for (const std::string& warning : plan.warnings) line("WARNING", warning);
   if (plan.trial_failure) {
     line("trial", "FAILED in the first steps: " + *plan.trial_failure);
