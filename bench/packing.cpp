@@ -10,6 +10,7 @@
 #include "reckon/avatar/generator.hpp"
 #include "reckon/core/random.hpp"
 #include "reckon/neighbor/pair_list.hpp"
+#include "reckon/output/checkpoint_tables.hpp"
 #include "reckon/simulation/fill_region.hpp"
 
 namespace reckon::bench {
@@ -179,21 +180,25 @@ double wall_pressure(const Measurement& now, const Vec3& size) {
 
 namespace {
 
+/// The columns of walk_grain() as a sequence of fields: calls `transfer` with each.
+template <class Transfer>
+struct FieldColumns {
+  Transfer transfer;
+
+  void id(const char* /*name*/, auto& value) const { transfer(value); }
+  void flag(const char* /*name*/, auto& value) const { transfer(value); }
+  void quaternion(const char* /*name*/, auto& value) const { transfer(value); }
+  void vector(const char* /*name*/, const char* /*unit*/, auto& value) const { transfer(value); }
+  void number(const char* /*name*/, const char* /*unit*/, auto& value) const { transfer(value); }
+  [[nodiscard]] static bool has_since(unsigned /*version*/) { return true; }
+};
+
 /// Calls `transfer` with each field of each grain. A whole grain has undefined bytes between its
 /// fields, which would make two files of the same packing differ.
 template <class Grains, class Transfer>
 void visit_fields(Grains& grains, const Transfer& transfer) {
-  for (auto& grain : grains) {
-    transfer(grain.id);
-    transfer(grain.shape);
-    transfer(grain.prescribed);
-    transfer(grain.position);
-    transfer(grain.orientation);
-    transfer(grain.velocity);
-    transfer(grain.angular_velocity_body);
-    transfer(grain.angular_increment_body);
-    transfer(grain.ledger);
-  }
+  const FieldColumns<Transfer> columns{transfer};
+  for (auto& grain : grains) walk_grain(columns, grain);
 }
 
 /// Bytes of one grain in a file.
