@@ -38,6 +38,12 @@ def headers_by_object(build):
     return headers
 
 
+def settings():
+    """The .clang-tidy files of the project."""
+    return subprocess.run(["git", "ls-files", "*.clang-tidy"], cwd=ROOT, check=True,
+                          capture_output=True, text=True).stdout.splitlines()
+
+
 class Fingerprints:
     """Hashes of everything that the result of a source depends on."""
 
@@ -46,9 +52,8 @@ class Fingerprints:
         self.headers = headers_by_object(build)
         self.known = {}
         common = subprocess.run(["clang-tidy", "--version"], check=True, capture_output=True).stdout
-        for config in sorted(ROOT.rglob(".clang-tidy")):
-            if build not in config.parents:
-                common += config.read_bytes()
+        for name in settings():
+            common += (ROOT / name).read_bytes()
         self.common = common
 
     def of_file(self, path):
@@ -74,9 +79,7 @@ class Fingerprints:
 
 def mirror_settings(build):
     """Unity sources lie in the build folder. They need the .clang-tidy of the folder they come from."""
-    names = subprocess.run(["git", "ls-files", "*.clang-tidy"], cwd=ROOT, check=True,
-                           capture_output=True, text=True).stdout.splitlines()
-    for name in names:
+    for name in settings():
         copy = build / name
         if copy.parent != build and copy.parent.is_dir():
             shutil.copyfile(ROOT / name, copy)
